@@ -111,10 +111,14 @@ def number(row, key):
 
 
 def cell(row, column):
-    """Text of a number with its unit, of a mean with its deviation; "-" where there is none."""
+    """Text of a number with its unit, of a mean with its deviation, of fewer than five packings their range; "-" where there is none."""
     value, scatter = number(row, column.key), None
     if isinstance(value, dict):
-        value, scatter = value.get("mean"), value.get("deviation")
+        count, low, high = value.get("runs", value.get("seeds", 0)), value.get("low"), value.get("high")
+        if 1 < count < 5 and low is not None:
+            return (f"{low / column.divisor:{column.form}} ... {high / column.divisor:{column.form}}{column.unit}, "
+                    f"{count} packings")
+        value, scatter = value.get("mean"), value.get("deviation") if count >= 5 else None
     if value is None or isinstance(value, str):
         return value or "-"
     text = f"{value / column.divisor:{column.form}}".rstrip(".")

@@ -18,9 +18,14 @@ std::string row_of(const Goals &goals, std::size_t k, const Judged &judged) {
   const double off = goal.wanted() ? goals.miss(k, by) : not_given;
   const std::string verdict =
       std::isnan(off) ? "" : fmt::format("{:+.1f} %{}", 100 * off, goals.met(k, by) ? "" : " *");
-  return fmt::format("  {:<30} {:>8} {:>20} {:>20} {:>10}\n", goal.words, goal_text,
-                     text_of(judged.training.numbers[k], goal.unit),
-                     judged.verified() ? text_of(judged.unseen.numbers[k], goal.unit) : "-", verdict);
+  // Of a curve what it is judged by: how far the mean of the packings is off.
+  const auto text = [&](const Measured &m) {
+    if (!goal.curve) return text_of(m.numbers[k], goal.unit);
+    const double miss = goals.miss(k, m);
+    return std::isnan(miss) ? std::string("-") : fmt::format("{:.4g}", miss);
+  };
+  return fmt::format("  {:<30} {:>8} {:>26} {:>26} {:>10}\n", goal.words, goal_text, text(judged.training),
+                     judged.verified() ? text(judged.unseen) : "-", verdict);
 }
 
 // A square or oblong table with a name for each row and column.
@@ -56,7 +61,11 @@ std::string listed(const char *what, const std::vector<std::string> &lines) {
 }
 
 Json json_of(const SeedStatistics &scatter) {
-  return {{"mean", scatter.mean()}, {"deviation", scatter.deviation()}, {"seeds", scatter.count()}};
+  return {{"mean", scatter.mean()},
+          {"deviation", scatter.deviation()},
+          {"low", scatter.least()},
+          {"high", scatter.largest()},
+          {"seeds", scatter.count()}};
 }
 
 Json json_of(const Goals &goals, const Measured &m) {
@@ -116,7 +125,7 @@ std::string wishes(const Goals &goals) {
 }
 
 std::string table_of(const Goals &goals, const Judged &judged) {
-  std::string text = fmt::format("  {:<30} {:>8} {:>20} {:>20} {:>10}\n", "", "wanted", "calibrated on",
+  std::string text = fmt::format("  {:<30} {:>8} {:>26} {:>26} {:>10}\n", "", "wanted", "calibrated on",
                                  "unseen seeds", "off");
   for (std::size_t k = 0; k < goals.all().size(); ++k)
     text += row_of(goals, k, judged);

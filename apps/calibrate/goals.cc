@@ -167,8 +167,10 @@ Measured Goals::measured(const std::vector<TrialResult> &results, bool elastic_a
         m.curves[k][point] += (curve[point] - m.curves[k][point]) / count;
     }
   }
-  for (const TrialResult &result : results)
+  for (const TrialResult &result : results) {
     m.failed += result.good() ? 0 : 1;
+    if (result.too_fast() && m.too_fast.empty()) m.too_fast = result.status;
+  }
   return m;
 }
 

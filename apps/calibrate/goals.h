@@ -36,6 +36,7 @@ struct Measured {
   std::vector<std::vector<double>> curves;
   SeedStatistics platen_modulus; // Pa
   int failed = 0;                // runs
+  std::string too_fast;          // why the first of them that was not quasi-static does not count
 };
 
 class Goals {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -30,10 +31,28 @@ double SeedStatistics::root_mean_square() const {
   return std::sqrt(squares / static_cast<double>(values_.size()));
 }
 
-std::string text_of(const SeedStatistics &s, double unit) {
+double SeedStatistics::least() const {
+  return values_.empty() ? std::numeric_limits<double>::quiet_NaN()
+                         : *std::min_element(values_.begin(), values_.end());
+}
+
+double SeedStatistics::largest() const {
+  return values_.empty() ? std::numeric_limits<double>::quiet_NaN()
+                         : *std::max_element(values_.begin(), values_.end());
+}
+
+std::string short_text_of(const SeedStatistics &s, double unit) {
   if (s.count() == 0) return "-";
   if (s.count() == 1) return fmt::format("{:.4g}", s.mean() / unit);
+  if (s.count() < fewest_for_deviation)
+    return fmt::format("{:.4g} ... {:.4g}", s.least() / unit, s.largest() / unit);
   return fmt::format("{:.4g} +- {:.2g}", s.mean() / unit, s.deviation() / unit);
+}
+
+std::string text_of(const SeedStatistics &s, double unit) {
+  const std::string text = short_text_of(s, unit);
+  if (s.count() == 0 || s.count() >= fewest_for_deviation) return text;
+  return text + (s.count() == 1 ? ", 1 packing" : fmt::format(", {} packings", s.count()));
 }
 
 } // namespace platen::apps

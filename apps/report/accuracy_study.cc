@@ -38,8 +38,7 @@ AccuracyParameter parameter_of(const Json &from) {
     value.number = number_or_nan(one.value("number", Json()));
     for (std::size_t m = 0; m < accuracy_measures; ++m) {
       const Json &error = one.at("errors").at(measures[m].key);
-      value.errors[m] = {number_or_nan(error.at("mean")), number_or_nan(error.at("deviation")),
-                         number_or_nan(error.at("root_mean_square")), error.at("runs")};
+      value.errors[m] = {over_seeds(error, 1), number_or_nan(error.at("root_mean_square")), error.at("runs")};
     }
     value.seconds = std::nan("");
     parameter.values.push_back(value);
@@ -85,9 +84,12 @@ void add_prices(AccuracyResults &results, const Json &prices) {
 }
 
 std::string error_words(const ErrorOverSeeds &error) {
-  if (error.runs == 0 || std::isnan(error.mean)) return "-";
-  return fmt::format("{:+.2g}", 100 * error.mean) +
-         (std::isnan(error.deviation) ? "" : fmt::format(" +- {:.2g}", 100 * error.deviation));
+  const Spread &s = error.error;
+  if (error.runs == 0 || std::isnan(s.mean)) return "-";
+  const std::string mean = fmt::format("{:+.2g}", 100 * s.mean);
+  if (static_cast<std::size_t>(error.runs) >= fewest_for_deviation)
+    return mean + fmt::format(" +- {:.2g}", 100 * (s.high - s.mean));
+  return s.high > s.low ? fmt::format("{:+.2g} ... {:+.2g}", 100 * s.low, 100 * s.high) : mean;
 }
 
 // The last part of "Effects/Rotation = off".
@@ -164,10 +166,11 @@ TableOfFigures table_of_accuracy(const AccuracyResults &study) {
           parameter.name, std::isnan(value.number) ? value.text : in_usual_unit(value.number, parameter.unit),
           std::to_string(value.errors[0].runs)};
       for (std::size_t m = 0; m < accuracy_measures; ++m)
-        row.push_back(!reference ? error_words(value.errors[m])
-                      : std::isnan(parameter.scatter[m])
-                          ? "reference"
-                          : fmt::format("seeds +- {:.2g}", 100 * parameter.scatter[m]));
+        row.push_back(
+            !reference ? error_words(value.errors[m])
+            : std::isnan(parameter.scatter[m])
+                ? "reference"
+                : fmt::format("reference; deviation of its seeds {:.2g}", 100 * parameter.scatter[m]));
       row.push_back(std::isnan(value.seconds) ? "-" : fmt::format("{:.3g}", value.seconds));
       table.rows.push_back(std::move(row));
     }

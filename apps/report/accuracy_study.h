@@ -7,14 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "apps/report/report.h"
+#include "apps/report/platen_study.h"
 
 namespace platen::apps::report {
 
 constexpr std::size_t accuracy_measures = 4; // strength, strain at the peak, modulus, broken bonds
 
 struct ErrorOverSeeds {
-  double mean, deviation, root_mean_square; // relative; NaN where nothing was compared
+  Spread error;            // relative; NaN where nothing was compared
+  double root_mean_square; // the same
   int runs;
 };
 
@@ -36,7 +37,7 @@ struct AccuracyResults {
   std::string title;
   std::vector<AccuracyParameter> parameters;
   std::vector<std::string> remarks; // what accuracy costs, and what failed
-  std::filesystem::path folder; // that it was read from
+  std::filesystem::path folder;     // that it was read from
 };
 
 // Throws InputError where study.json is missing, damaged, of another study or of one that has not ended.

@@ -10,6 +10,7 @@
 #include "apps/report/chart.h"
 #include "apps/report/csv.h"
 #include "apps/report/head.h"
+#include "apps/report/platen_study.h"
 #include "apps/report/report.h"
 #include "apps/report/run_folder.h"
 #include "apps/scene/errors.h"
@@ -35,22 +36,48 @@ std::vector<fs::path> curves_of(const fs::path &folder) {
   }
 }
 
+bool is_curve(const Json &target) {
+  return text_in(target, "kind") == "curve";
+}
+
+// "0.981 +- 0.02", "0.96 ... 1.01, 3 packings"; in multiples of a unit.
+std::string scatter_words(const Json &statistics, double unit, int digits) {
+  const Spread spread = over_seeds(statistics, unit);
+  const std::string mean = fmt::format("{:.{}g}", spread.mean, digits);
+  if (spread.packings == 0) return mean;
+  if (static_cast<std::size_t>(spread.packings) >= fewest_for_deviation)
+    return mean + fmt::format(" +- {:.2g}", spread.high - spread.mean);
+  if (spread.packings == 1) return mean + ", 1 packing";
+  return (spread.high > spread.low
+              ? fmt::format("{:.{}g} ... {:.{}g}", spread.low, digits, spread.high, digits)
+              : mean) +
+         fmt::format(", {} packings", spread.packings);
+}
+
+// Of a curve what decides whether it is met: how far the mean of the packings is off, root mean square over
+// its largest stress.
 std::string text_of(const Json &target, const char *key) {
   if (!target.contains(key) || !target.at(key).at("mean").is_number()) return "-";
-  const Json &of = target.at(key);
-  const std::string mean = fmt::format("{:.4g}", of.at("mean").get<double>());
-  return of.at("deviation").is_number() ? fmt::format("{} +- {:.2g}", mean, of.at("deviation").get<double>())
-                                        : mean;
+  if (const double miss = number_in(target, std::string(key) + "_miss");
+      is_curve(target) && !std::isnan(miss))
+    return fmt::format("off by {:.4g} %", 100 * miss);
+  return scatter_words(target.at(key), 1, 4);
+}
+
+std::string tolerance_of(const Json &target) {
+  const double tolerance = number_in(target, "tolerance");
+  return std::isnan(tolerance) ? "-" : fmt::format("{:.3g} %", 100 * tolerance);
 }
 
 TableOfFigures table_of_targets(const Json &summary) {
-  TableOfFigures table{{"target (SI)", "wanted", "calibrated on", "unseen packings", "within its tolerance"},
-                       {}};
+  TableOfFigures table{
+      {"target (SI)", "wanted", "calibrated on", "unseen packings", "tolerance", "within its tolerance"}, {}};
   for (const Json &target : summary.at("targets"))
-    table.rows.push_back({target.at("key").get<std::string>(),
-                          fmt::format("{:.4g}", target.at("wanted").get<double>()),
-                          text_of(target, "training"), text_of(target, "verification"),
-                          target.value("met", target.value("met_in_training", false)) ? "yes" : "no"});
+    table.rows.push_back(
+        {target.at("key").get<std::string>(),
+         is_curve(target) ? "the curve" : fmt::format("{:.4g}", target.at("wanted").get<double>()),
+         text_of(target, "training"), text_of(target, "verification"), tolerance_of(target),
+         target.value("met", target.value("met_in_training", false)) ? "yes" : "no"});
   return table;
 }
 
@@ -108,12 +135,8 @@ void draw_targets(const fs::path &folder, const fs::path &png) {
       if (!target.contains(key) || !target.at(key).at("mean").is_number() || wanted == 0) continue;
       const Json &of = target.at(key);
       const double ratio = of.at("mean").get<double>() / wanted;
-      const std::string scatter =
-          of.at("deviation").is_number()
-              ? fmt::format(" +- {:.3f}", std::abs(of.at("deviation").get<double>() / wanted))
-              : ", one packing: no scatter known";
       bars.push_back({target.at("key").get<std::string>() + (unseen ? ", unseen" : ""),
-                      fmt::format("{:.3f}{}", ratio, scatter), std::max(ratio, 0.0),
+                      scatter_words(of, wanted, 3), std::max(ratio, 0.0),
                       unseen ? colours::vermilion : colours::blue});
     }
   }
@@ -128,11 +151,10 @@ void write_calibration_report(const fs::path &folder, const fs::path &pictures, 
   std::vector<std::string> remarks;
   album.begin("Targets");
   if (has_targets(summary))
-    album.add(
-        "targets.png",
-        "Each target as it was found over what was wanted, mean and deviation of the packings: those that "
-        "were calibrated on, and unseen ones.",
-        draw_targets, folder);
+    album.add("targets.png",
+              "Each target as it was found over what was wanted, mean of the packings: those that "
+              "were calibrated on, and unseen ones.",
+              draw_targets, folder);
   else
     remarks.emplace_back("summary.json tells no target that was found: there is no picture of them");
   album.begin("Curves");

@@ -65,8 +65,8 @@ double angle_of_axes(const std::vector<FittedCone> &cones, double height) {
   double xx = 0, yy = 0, xy = 0;
   for (const FittedCone &cone : cones) {
     if (cone.verdict != FittedCone::Verdict::found) continue;
-    for (const auto &[x, y] : {std::pair{cone.apex[0], cone.apex[1]},
-                               std::pair{reach * cone.axis[0], reach * cone.axis[1]}})
+    for (const auto &[x, y] :
+         {std::pair{cone.apex[0], cone.apex[1]}, std::pair{reach * cone.axis[0], reach * cone.axis[1]}})
       xx += x * x, yy += y * y, xy += x * y;
   }
   return 0.5 * std::atan2(2 * xy, xx - yy);

@@ -24,11 +24,6 @@ double or_zero(double value) { // keys that can be compared
   return std::isnan(value) ? 0 : value;
 }
 
-Spread spread_of(const SeedStatistics &s) {
-  const double mean = s.mean(), deviation = s.count() > 1 ? s.deviation() : 0;
-  return {mean, mean - deviation, mean + deviation};
-}
-
 Spread over_lines(const std::vector<FailureLine> &lines, double FailureLine::*of) {
   SeedStatistics statistics;
   for (const FailureLine &line : lines)
@@ -84,6 +79,10 @@ Envelope envelope_of(const StudyResults &study, const std::vector<std::size_t> &
   return envelope;
 }
 
+std::string packings_of(const Envelope &envelope) {
+  return envelope.lines.size() == 1 ? "1 packing" : fmt::format("{} packings", envelope.lines.size());
+}
+
 Chart failure_chart(const Envelope &envelope) {
   constexpr int stations = 40;
   constexpr double half_cap = 0.006;
@@ -106,8 +105,9 @@ Chart failure_chart(const Envelope &envelope) {
     chart.curves.push_back(std::move(curve));
   };
   if (!envelope.lines.empty())
-    add(fmt::format("fitted: {} + {} p", words(envelope.q, 1), words(envelope.k, 2)), colours::blue,
-        Stroke::solid, [&](double p) { return envelope.q.mean + envelope.k.mean * p; });
+    add(fmt::format("fitted: {:.1f} + {:.2f} p, mean of {}", envelope.q.mean, envelope.k.mean,
+                    packings_of(envelope)),
+        colours::blue, Stroke::solid, [&](double p) { return envelope.q.mean + envelope.k.mean * p; });
   if (!std::isnan(fc)) {
     add("EN 1998-3", colours::vermilion, Stroke::solid, [&](double p) { return strength_en_1998_3(fc, p); });
     add("Richart 1928: + 4.1 p", colours::green, Stroke::dashed,
@@ -139,13 +139,13 @@ Chart mohr_chart(const Envelope &envelope, int &height) {
   if (!std::isnan(envelope.cohesion.mean)) {
     const double slope = std::tan(envelope.phi.mean * degree), c = envelope.cohesion.mean;
     const double last = std::min(end, (1.3 * radius - c) / slope);
-    chart.curves.push_back(
-        {fmt::format("c = {} MPa, phi = {} degrees", words(envelope.cohesion, 1), words(envelope.phi, 1)),
-         {0, last},
-         {c, c + slope * last},
-         colours::black,
-         Stroke::dashed,
-         4});
+    chart.curves.push_back({fmt::format("c = {:.1f} MPa, phi = {:.1f} degrees, mean of {}",
+                                        envelope.cohesion.mean, envelope.phi.mean, packings_of(envelope)),
+                            {0, last},
+                            {c, c + slope * last},
+                            colours::black,
+                            Stroke::dashed,
+                            4});
   }
   chart.x_range = {0, end};
   const double room = 1.0 + 0.08 * static_cast<double>(chart.curves.size()); // for the legend
@@ -245,7 +245,9 @@ TableOfFigures table_of_lines(const Envelope &envelope) {
   for (const FailureLine &line : envelope.lines)
     table.rows.push_back({std::to_string(line.seed), std::to_string(line.pressures), number(line.q, 1),
                           number(line.k, 2), number(line.cohesion, 1), number(line.phi, 1)});
-  table.rows.push_back({envelope.lines.size() > 1 ? "mean and deviation" : "one packing: no scatter known",
+  table.rows.push_back({envelope.lines.size() >= fewest_for_deviation ? "mean and deviation"
+                        : envelope.lines.size() > 1                   ? "range"
+                                                                      : "one packing: no scatter known",
                         "", words(envelope.q, 1), words(envelope.k, 2), words(envelope.cohesion, 1),
                         words(envelope.phi, 1)});
   return table;

@@ -38,12 +38,8 @@ std::string counted(std::size_t count, const char *what) {
 
 // Of a key of summary.json, by its ending.
 std::string unit_of_key(const std::string &key) {
-  constexpr std::array<std::array<const char *, 2>, 6> endings{{{"_pa", "Pa"},
-                                                                {"_kg_m3", "kg/m3"},
-                                                                {"_m", "m"},
-                                                                {"_n", "N"},
-                                                                {"_s", "s"},
-                                                                {"_deg", "degree"}}};
+  constexpr std::array<std::array<const char *, 2>, 6> endings{
+      {{"_pa", "Pa"}, {"_kg_m3", "kg/m3"}, {"_m", "m"}, {"_n", "N"}, {"_s", "s"}, {"_deg", "degree"}}};
   for (const auto &[ending, unit] : endings) {
     const std::string end = ending;
     if (key.size() > end.size() && key.compare(key.size() - end.size(), end.size(), end) == 0) return unit;
@@ -210,9 +206,9 @@ std::string verdict_in_words(const std::vector<Results> &all) {
   const std::string expected = counted(count, "figure");
   if (missed == 0 && open == 0)
     return fmt::format("As expected: {} that the scene expects, all met.", expected);
-  std::string words = missed > 0 ? fmt::format("Not as expected: {} of {} that the scene expects not met",
-                                               missed, expected)
-                                 : fmt::format("{} of {} that the scene expects met", met, expected);
+  std::string words =
+      missed > 0 ? fmt::format("Not as expected: {} of {} that the scene expects not met", missed, expected)
+                 : fmt::format("{} of {} that the scene expects met", met, expected);
   if (open > 0) words += fmt::format(", {} not checked", open);
   return words + ".";
 }
@@ -239,7 +235,8 @@ TableOfFigures table_of_facts(const std::vector<Results> &all) {
       fields.push_back(words_of(of));
     add_row(table, title, fields);
   };
-  row("spheres", [](const Results &of) { return number_words(number_in(of.summary, "particles"), "{:.0f}"); });
+  row("spheres",
+      [](const Results &of) { return number_words(number_in(of.summary, "particles"), "{:.0f}"); });
   row("bonds", [](const Results &of) { return number_words(number_in(of.summary, "bonds"), "{:.0f}"); });
   row("mean radius (mm)", [](const Results &of) {
     const double told = number_in(of.summary, "mean_radius_m");

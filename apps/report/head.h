@@ -16,7 +16,7 @@ struct Results {
   std::string name; // of its folder, above its column
   std::filesystem::path folder;
   Json summary;
-  double mean_radius = not_told;      // m, of the spheres
+  double mean_radius = not_told;     // m, of the spheres
   std::vector<std::string> friction; // of each platen: "top 0.57"; empty where it is no test between platens
   static constexpr double not_told = std::numeric_limits<double>::quiet_NaN();
 };
@@ -35,7 +35,7 @@ std::string true_title(const std::string &title, const std::filesystem::path &fo
 // seed, friction of the platens, title of the scene file and all that was overridden in it.
 void add_head(const std::vector<Results> &all, Album &album);
 void add_head(const std::filesystem::path &folder, Album &album); // of one folder, no run between platens
-std::string verdict_in_words(const std::vector<Results> &all); // a sentence; "" where nothing is expected
+std::string verdict_in_words(const std::vector<Results> &all);    // a sentence; "" where nothing is expected
 TableOfFigures table_of_verdict(const std::vector<Results> &all); // no rows where there is none
 TableOfFigures table_of_facts(const std::vector<Results> &all);
 

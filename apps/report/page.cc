@@ -265,13 +265,12 @@ void Album::finish(const std::string &title, const TableOfFigures &figures,
   for (const std::string &remark : remarks)
     list += "<li>" + escaped(remark) + "</li>\n";
   const std::filesystem::path html = folder_ / "report.html";
-  write_text_aside(html,
-                   fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-                               "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-                               "<title>{0}</title>\n{1}</head>\n<body>\n<h1>{0}</h1>\n{6}{2}{3}"
-                               "<ul>\n{4}</ul>\n{5}</body>\n</html>\n",
-                               escaped(title), style_sheet, links, html_table(figures), list, sections,
-                               head));
+  write_text_aside(
+      html, fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+                        "<title>{0}</title>\n{1}</head>\n<body>\n<h1>{0}</h1>\n{6}{2}{3}"
+                        "<ul>\n{4}</ul>\n{5}</body>\n</html>\n",
+                        escaped(title), style_sheet, links, html_table(figures), list, sections, head));
   for (const Section &section : sections_)
     for (const Picture &picture : section.pictures)
       for (const char *ending : {".png", ".svg"}) // charts have both

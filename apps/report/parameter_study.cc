@@ -243,11 +243,10 @@ void write_parameter_report(const ParameterStudy &study, const fs::path &folder,
   else if (!any)
     remarks.emplace_back("no case has a figure: there is no curve to draw");
   else
-    album.add(
-        "study_" + study.kind + ".png",
-        "Each point is the mean of the packings of a case; bars: their standard deviation. A case without "
-        "a figure is a gap.",
-        draw_parameter_study, study);
+    album.add("study_" + study.kind + ".png",
+              "Each point is the mean of the packings of a case; bars: their scatter. A case without "
+              "a figure is a gap.",
+              draw_parameter_study, study);
   for (const std::string &remark : remarks)
     out << remark << '\n';
   album.finish(study.title, table_of(study), remarks, out);

@@ -113,19 +113,43 @@ std::map<std::pair<double, double>, std::vector<std::size_t>> groups_of(const St
 
 Spread over_seeds(const Json &statistics, double unit) {
   const double mean = number_or_nan(statistics.at("mean")) / unit,
-               deviation = number_or_nan(statistics.at("deviation")) / unit,
-               half = std::isnan(deviation) ? 0 : deviation;
-  return {mean, mean - half, mean + half};
+               deviation = number_or_nan(statistics.at("deviation")) / unit;
+  const int packings = statistics.value(statistics.contains("seeds") ? "seeds" : "runs", 0);
+  const bool few = static_cast<std::size_t>(packings) < fewest_for_deviation;
+  double low = mean - deviation, high = mean + deviation;
+  if (few && statistics.contains("low")) {
+    low = number_or_nan(statistics.at("low")) / unit, high = number_or_nan(statistics.at("high")) / unit;
+  } else if (few) { // of an earlier version: two packings lie to both sides of their mean, of more nobody
+                    // knows
+    const double half = packings == 2 ? deviation / std::sqrt(2.0) : 0;
+    low = mean - half, high = mean + half;
+  }
+  return {mean, std::isnan(low) ? mean : low, std::isnan(high) ? mean : high, packings};
+}
+
+Spread spread_of(const SeedStatistics &s) {
+  const bool few = s.count() < fewest_for_deviation;
+  const double mean = s.mean();
+  return {mean, few ? s.least() : mean - s.deviation(), few ? s.largest() : mean + s.deviation(),
+          static_cast<int>(s.count())};
 }
 
 std::string words(const Spread &s, int digits) {
   if (std::isnan(s.mean)) return "-";
-  return s.high > s.low ? fmt::format("{:.{}f} +- {:.{}f}", s.mean, digits, s.high - s.mean, digits)
-                        : fmt::format("{:.{}f}", s.mean, digits);
+  const std::string mean = fmt::format("{:.{}f}", s.mean, digits);
+  if (s.packings == 0) return mean;
+  if (static_cast<std::size_t>(s.packings) >= fewest_for_deviation)
+    return mean + fmt::format(" +- {:.{}f}", s.high - s.mean, digits);
+  if (s.packings == 1) return mean + ", 1 packing";
+  const std::string range =
+      s.high > s.low ? fmt::format("{:.{}f} ... {:.{}f}", s.low, digits, s.high, digits) : mean;
+  return range + fmt::format(", {} packings", s.packings);
 }
 
 std::string words_of_scatter(int packings) {
-  return packings > 1 ? "; bars: standard deviation over the packings" : "; one packing: no scatter known";
+  if (packings <= 1) return "; one packing: no scatter known";
+  if (static_cast<std::size_t>(packings) < fewest_for_deviation) return "; bars: range of the packings";
+  return "; bars: standard deviation over the packings, of fewer than five their range";
 }
 
 // Folders of runs are named by case and seed.
@@ -266,13 +290,13 @@ void write_study_report(const StudyResults &study, const fs::path &folder, std::
     if (frictions.size() > 1)
       album.add("strength_friction" + number + ".png",
                 "Strength against the friction of the platens, and its gain over free ends; bars: "
-                "standard deviation over the packings, range of the laboratory." +
+                "scatter of the packings, range of the laboratory." +
                     which,
                 draw_friction, study, cases);
     if (slendernesses.size() > 1)
       album.add("strength_slenderness" + number + ".png",
-                "Strength against height over width, and its ratio to that at 2; bars: standard "
-                "deviation over the packings, range of the laboratory." +
+                "Strength against height over width, and its ratio to that at 2; bars: scatter of the "
+                "packings, range of the laboratory." +
                     which,
                 draw_slenderness, study, cases);
   }
@@ -285,7 +309,7 @@ void write_study_report(const StudyResults &study, const fs::path &folder, std::
     album.add(count == 0 ? "failure_envelope.png" : fmt::format("failure_envelope_{}.png", count),
               envelope.label +
                   ": above, strength over the pressure on the sides, the line fitted to each packing "
-                  "(mean and deviation), and what EN 1998-3 and Richart give for the same unconfined "
+                  "(their mean), and what EN 1998-3 and Richart give for the same unconfined "
                   "strength; below, Mohr's circles and the tangent of that line.",
               draw_envelope, study, envelope);
     ++count;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/io/seed_statistics.h"
 #include "apps/report/report.h"
 
 namespace platen::apps::report {
@@ -14,6 +15,7 @@ namespace platen::apps::report {
 // A number with its scatter, or the range of a laboratory.
 struct Spread {
   double mean, low, high; // NaN where nothing was measured
+  int packings = 0;       // that it is of; 0: of none, or not told
 };
 
 struct StudiedCase {
@@ -60,12 +62,15 @@ Json finished_study(const std::filesystem::path &folder);
 std::string title_of_study(const std::filesystem::path &folder);
 // "2 of 9 runs failed and count in no mean", as a remark where any did.
 void add_failed_runs(const Json &study, std::vector<std::string> &remarks);
-// What the bars of a study's picture are: "; bars: standard deviation over the packings", or that there is
-// one packing, whose scatter nobody knows. `packings`: the most of any case.
+// What the bars of a study's picture are: "; bars: standard deviation over the packings", their range where
+// there are fewer than five, or that there is one packing, whose scatter nobody knows. `packings`: the most
+// of any case.
 std::string words_of_scatter(int packings);
-// The mean and the standard deviation to both sides, in multiples of a unit; none where there is one seed.
+// In multiples of a unit: the mean and the standard deviation to both sides of five packings and more, of
+// fewer the mean and their range; low and high are the mean where neither is known.
 Spread over_seeds(const Json &statistics, double unit);
-// "41.0 +- 0.9"; "-" of nothing.
+Spread spread_of(const SeedStatistics &statistics);
+// "41.0 +- 0.9"; of fewer than five packings "40.1 ... 41.9, 3 packings"; "-" of nothing.
 std::string words(const Spread &spread, int digits);
 // Why figures of a case do not count, from the summaries of its runs: "3 of 3 runs: no peak reached, ...".
 // Empty where the runs' folders are not there or say nothing.

@@ -22,6 +22,8 @@ constexpr double bounds[] = {0.05, 0.02, 0.01, 0.001};
 Json statistics(const SeedStatistics &s) {
   return {{"mean", s.mean()},
           {"deviation", s.deviation()},
+          {"low", s.least()},
+          {"high", s.largest()},
           {"root_mean_square", s.root_mean_square()},
           {"runs", s.count()}};
 }
@@ -49,14 +51,14 @@ std::string table(const StudyPlan &plan, const StudiedParameter &parameter, cons
     const bool reference = v + 1 == parameter.values.size();
     std::vector<std::string> row{with_unit(parameter, parameter.values[v]), compared(of, plan.seeds.size())};
     for (const Measure m : all_measures)
-      row.push_back(!reference ? text_of(of.of(m), percent)
+      row.push_back(!reference ? short_text_of(of.of(m), percent)
                     : std::isnan(errors.scatter_of(m))
                         ? "-"
                         : fmt::format("({:.2g})", errors.scatter_of(m) / percent));
     row.push_back(of.residual.count() == 0 ? "-" : fmt::format("{:.1e}", of.residual.mean()));
     row.push_back(of.kinetic.count() == 0 ? "-" : fmt::format("{:.1e}", of.kinetic.mean()));
     row.push_back(of.steps.count() == 0 ? "-" : fmt::format("{:.0f}", of.steps.mean()));
-    row.push_back(text_of(of.seconds, 1));
+    row.push_back(short_text_of(of.seconds, 1));
     rows.push_back(std::move(row));
   }
   return aligned(rows);
@@ -234,8 +236,10 @@ std::string text_of(const StudyPlan &plan, const std::vector<ParameterErrors> &e
     text += '\n';
   }
   return text +
-         "  errors: mean +- standard deviation over the seeds, each against the reference (last row) on its "
-         "own seed.\n  In brackets: scatter of the reference's seeds; what is below it is lost among "
+         "  errors: mean +- standard deviation over the seeds, of fewer than five their range, each against "
+         "the "
+         "reference (last row) on its own seed.\n  In brackets: standard deviation of the reference's seeds; "
+         "what is below it is lost among "
          "specimens.\n"
          "  \"1 % costs\": root mean square over the seeds, of that value and of all finer ones. Wall clock, "
          "a "

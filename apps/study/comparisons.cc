@@ -185,7 +185,8 @@ Json json_of(const StudyPlan &plan, const std::vector<Comparison> &comparisons) 
   for (const Comparison &c : comparisons) {
     Json one{{"effect", word(c.effect)},         {"case", plan.cases[c.of].name},
              {"over", plan.cases[c.over].name},  {"mean", c.ratio.mean()},
-             {"deviation", c.ratio.deviation()}, {"runs", c.ratio.count()}};
+             {"deviation", c.ratio.deviation()}, {"low", c.ratio.least()},
+             {"high", c.ratio.largest()},        {"runs", c.ratio.count()}};
     one["laboratory"] = c.laboratory == nullptr ? Json() : Json(*c.laboratory);
     all.push_back(std::move(one));
   }
@@ -209,7 +210,7 @@ std::string text_of(const StudyPlan &plan, const std::vector<Comparison> &compar
                         specimen(c.over), widths[1]);
     text += c.laboratory == nullptr
                 ? text_of(c.ratio, 1) + '\n'
-                : fmt::format("{:<16}  laboratory {}\n", text_of(c.ratio, 1), words(*c.laboratory));
+                : fmt::format("{:<26}  laboratory {}\n", text_of(c.ratio, 1), words(*c.laboratory));
   }
   return text;
 }

@@ -43,7 +43,16 @@ std::string pattern_in(const Json &summary) {
 }
 
 Json json_of(const SeedStatistics &s) {
-  return {{"mean", s.mean()}, {"deviation", s.deviation()}, {"runs", s.count()}};
+  return {{"mean", s.mean()},
+          {"deviation", s.deviation()},
+          {"low", s.least()},
+          {"high", s.largest()},
+          {"runs", s.count()}};
+}
+
+// With how many runs have the figure, where not all have.
+std::string text_of_row(const SeedStatistics &s, double unit, int runs) {
+  return s.count() == static_cast<std::size_t>(runs) ? short_text_of(s, unit) : text_of(s, unit);
 }
 
 // How a column is shown.
@@ -217,13 +226,13 @@ std::string StudyTables::text() const {
     const int absent = of.failed + of.missing;
     row.push_back(absent == 0 ? std::to_string(of.runs) : fmt::format("{} of {}", of.runs - absent, of.runs));
     for (const Shown &column : measured)
-      row.push_back(text_of(of.figures.at(column.column), column.unit));
-    row.push_back(text_of(of.figures.at("wall_seconds"), 1));
+      row.push_back(text_of_row(of.figures.at(column.column), column.unit, of.runs - absent));
+    row.push_back(text_of_row(of.figures.at("wall_seconds"), 1, of.runs - absent));
     const SeedStatistics &bytes = of.figures.at("peak_memory_bytes");
     row.push_back(bytes.count() > 0 ? fmt::format("{:.0f}", 1e-6 * bytes.mean()) : "-");
     rows.push_back(std::move(row));
   }
-  return aligned(rows) + "  mean +- standard deviation over the seeds\n";
+  return aligned(rows) + "  mean +- standard deviation over the packings, of fewer than five their range\n";
 }
 
 } // namespace platen::apps

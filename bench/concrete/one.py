@@ -60,6 +60,8 @@ def attard_setunge_strain(fc, p):
 def said(values):
     if not values:
         return "-"
+    if 1 < len(values) < 5:  # of fewer than five packings a deviation is a guess
+        return f"{min(values):.3g} ... {max(values):.3g} ({len(values)})"
     scatter = f" +- {statistics.stdev(values):.2g}" if len(values) > 1 else ""
     return f"{statistics.mean(values):.3g}{scatter} ({len(values)})"
 

@@ -37,6 +37,8 @@ def said(figures, scale=1.0):
     if not figures:
         return "-"
     figures = [scale * figure for figure in figures]
+    if 1 < len(figures) < 5:  # of fewer than five packings a deviation is a guess
+        return f"{min(figures):.3g} ... {max(figures):.3g}, {len(figures)} packings"
     scatter = f" +- {statistics.stdev(figures):.2g}" if len(figures) > 1 else ""
     return f"{statistics.mean(figures):.3g}{scatter}"
 

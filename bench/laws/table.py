@@ -19,6 +19,8 @@ def figure(all_of, key, scale=1.0, digits=2):
     values = [scale * s[key] for s in all_of if s[key] is not None]
     if not values:
         return "-"
+    if 1 < len(values) < 5:  # of fewer than five packings a deviation is a guess
+        return f"{min(values):.{digits}f} ... {max(values):.{digits}f}, {len(values)} packings"
     scatter = f" +- {statistics.stdev(values):.{digits}f}" if len(values) > 1 else ""
     return f"{statistics.mean(values):.{digits}f}{scatter}"
 

@@ -37,5 +37,7 @@ for name, (what, experiment, model) in scalars.items():
     values = [v for v in (value(runs.get(name), name) for runs in folders) if v is not None]
     if not values:
         continue
-    scatter = f" +- {statistics.stdev(values):.2f}" if len(values) > 1 else ""
-    print(f"| {what} | {experiment} | {model} | {statistics.mean(values):.2f}{scatter} | {len(values)} |")
+    here = f"{statistics.mean(values):.2f}" + (f" +- {statistics.stdev(values):.2f}" if len(values) > 4 else "")
+    if 1 < len(values) < 5:  # of fewer than five packings a deviation is a guess
+        here = f"{min(values):.2f} ... {max(values):.2f}"
+    print(f"| {what} | {experiment} | {model} | {here} | {len(values)} |")

@@ -23,6 +23,8 @@ def number(value, scale=1.0, digits=2):
 def spread(values, digits=2):
     if len(values) < 2:
         return " ".join(f"{v:.{digits}f}" for v in values)
+    if 1 < len(values) < 5:  # of fewer than five packings a deviation is a guess
+        return f"{min(values):.{digits}f} ... {max(values):.{digits}f}, {len(values)} packings"
     return f"{statistics.mean(values):.{digits}f} +- {statistics.stdev(values):.{digits}f}"
 
 

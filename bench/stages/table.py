@@ -31,6 +31,8 @@ def spread(values):
         return "-"
     if len(values) == 1:
         return f"{values[0]:.2f}"
+    if 1 < len(values) < 5:  # of fewer than five packings a deviation is a guess
+        return f"{min(values):.2f} ... {max(values):.2f}, {len(values)} packings"
     return f"{statistics.mean(values):.2f} +- {statistics.stdev(values):.2f}"
 
 

@@ -31,7 +31,24 @@ TEST(SeedStatistics, leave_out_what_was_not_measured) {
   EXPECT_EQ(s.count(), 1u);
   EXPECT_EQ(s.mean(), 3);
   EXPECT_TRUE(std::isnan(s.deviation()));
-  EXPECT_EQ(text_of(s, 1), "3");
+  EXPECT_EQ(text_of(s, 1), "3, 1 packing");
+}
+
+// A deviation of few is a guess that looks like knowledge: two that agree by chance would tell "+- 0.0".
+TEST(SeedStatistics, of_fewer_than_five_the_range_is_told_and_how_many) {
+  SeedStatistics s;
+  EXPECT_TRUE(std::isnan(s.least()));
+  EXPECT_TRUE(std::isnan(s.largest()));
+  s.add(41.5e6), s.add(41.4e6);
+  EXPECT_EQ(text_of(s, 1e6), "41.4 ... 41.5, 2 packings");
+  EXPECT_EQ(short_text_of(s, 1e6), "41.4 ... 41.5");
+  s.add(43e6), s.add(40e6);
+  EXPECT_EQ(s.least(), 40e6);
+  EXPECT_EQ(s.largest(), 43e6);
+  EXPECT_EQ(text_of(s, 1e6), "40 ... 43, 4 packings");
+  s.add(41.5e6);
+  EXPECT_EQ(text_of(s, 1e6), "41.48 +- 1.1");
+  EXPECT_EQ(short_text_of(s, 1e6), text_of(s, 1e6));
 }
 
 } // namespace

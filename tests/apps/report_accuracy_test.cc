@@ -65,12 +65,26 @@ TEST(ReportAccuracy, its_table_tells_errors_scatter_and_seconds_and_its_remarks_
   const AccuracyResults study = read_accuracy(folder.path());
   const TableOfFigures table = table_of_accuracy(study);
   ASSERT_EQ(table.rows.size(), 5u);
-  EXPECT_EQ(table.rows[0], (std::vector<std::string>{"axial rate", "0.2 m/s", "3", "-10 +- 0.1", "-10 +- 0.1",
-                                                     "-10 +- 0.1", "-10 +- 0.1", "1"}));
-  EXPECT_EQ(table.rows[2], (std::vector<std::string>{"axial rate", "0.05 m/s", "3", "seeds +- 2",
-                                                     "seeds +- 3", "seeds +- 0.4", "reference", "4"}));
+  EXPECT_EQ(table.rows[0],
+            (std::vector<std::string>{"axial rate", "0.2 m/s", "3", "-10", "-10", "-10", "-10", "1"}));
+  EXPECT_EQ(table.rows[2],
+            (std::vector<std::string>{"axial rate", "0.05 m/s", "3", "reference; deviation of its seeds 2",
+                                      "reference; deviation of its seeds 3",
+                                      "reference; deviation of its seeds 0.4", "reference", "4"}));
   EXPECT_EQ(study.remarks,
             (std::vector<std::string>{"axial rate, strength: 5 % costs 2 s (0.1); 1 % not reached"}));
+}
+
+TEST(ReportAccuracy, errors_of_few_seeds_have_a_range_and_of_five_a_deviation) {
+  const TestFolder folder;
+  Json study = example();
+  Json &error = study["accuracy"][0]["values"][0]["errors"]["strength"];
+  error.update({{"low", -0.12}, {"high", -0.07}});
+  folder.write("study.json", study.dump());
+  EXPECT_EQ(table_of_accuracy(read_accuracy(folder.path())).rows[0][3], "-12 ... -7");
+  error["runs"] = 5;
+  folder.write("study.json", study.dump());
+  EXPECT_EQ(table_of_accuracy(read_accuracy(folder.path())).rows[0][3], "-10 +- 0.1");
 }
 
 TEST(ReportAccuracy, what_is_no_finished_study_is_refused) {

@@ -48,8 +48,34 @@ TEST(ReportCalibration, curves_and_targets_are_on_its_page) {
   for (const char *name : {"curve.png", "curve_2.png"})
     EXPECT_GT(std::filesystem::file_size(folder / "pictures" / name), 10000u) << name;
   const std::string page = text_of(folder / "pictures" / "report.html");
-  for (const char *words : {"Made-up bonds", "4.2e+07 +- 1e+06", "out of reach"})
+  for (const char *words : {"Made-up bonds", "4.2e+07, 3 packings", "4.1e+07, 1 packing", "out of reach"})
     EXPECT_NE(page.find(words), std::string::npos) << words;
+}
+
+// What decides is how far the mean of the packings is off, not the mean of how far each is.
+TEST(ReportCalibration, a_curve_is_shown_by_what_it_is_judged_by) {
+  const TestFolder folder;
+  Json summary = example();
+  const Json curve{{"key", "curve_miss"},
+                   {"kind", "curve"},
+                   {"wanted", 0},
+                   {"tolerance", 0.05},
+                   {"training", {{"mean", 0.0576}, {"deviation", 0.01}, {"seeds", 5}}},
+                   {"training_miss", 0.0453},
+                   {"met_in_training", true}};
+  summary["targets"].push_back(curve);
+  summary["targets_missed"] = {"compressive strength, MPa: wanted 43, got 41, off by -4.65 %, tolerance 2 %"};
+  folder.write("summary.json", summary.dump());
+  const std::string command = "env -u DISPLAY '" PLATEN_REPORT_PROGRAM "' '" + folder.path().string() +
+                              "' >'" + (folder / "out.txt").string() + "' 2>&1";
+  ASSERT_EQ(std::system(command.c_str()), 0) << text_of(folder / "out.txt");
+  const std::string page = text_of(folder / "pictures" / "report.html");
+  EXPECT_NE(page.find("<td>off by 4.53 %</td><td>-</td><td>5 %</td><td>yes</td>"), std::string::npos);
+  EXPECT_EQ(page.find("0.0576"), std::string::npos);
+  const auto verdict = page.find("Not as wanted: 1 target not met.");
+  ASSERT_NE(verdict, std::string::npos);
+  EXPECT_LT(verdict, page.find("<th>target (SI)</th>"));
+  EXPECT_NE(page.find("not met: compressive strength, MPa: wanted 43"), std::string::npos);
 }
 
 } // namespace

@@ -89,12 +89,14 @@ TEST(ReportEnvelope, each_packing_has_its_line_and_they_have_their_scatter) {
   EXPECT_NEAR(e.lines[0].k, 4, 1e-9);
   EXPECT_NEAR(e.lines[1].q, 44, 1e-9);
   EXPECT_NEAR(e.k.mean, 4.5, 1e-9);
-  EXPECT_NEAR(e.k.high - e.k.mean, std::sqrt(0.5), 1e-9);
+  EXPECT_NEAR(e.k.low, 4, 1e-9); // of two packings the range
+  EXPECT_NEAR(e.k.high, 5, 1e-9);
   EXPECT_NEAR(e.unconfined(), 42, 1e-9);
   const TableOfFigures table = table_of(e);
   EXPECT_EQ(table.rows[1][3], "4.50");
   EXPECT_EQ(table.rows[2][5], "83.0"); // Richart: 42 + 41
-  EXPECT_EQ(table_of_lines(e).rows.back()[0], "mean and deviation");
+  EXPECT_EQ(table_of_lines(e).rows.back()[0], "range");
+  EXPECT_EQ(table_of_lines(e).rows.back()[3], "4.00 ... 5.00, 2 packings");
   EXPECT_TRUE(remarks.empty());
 }
 

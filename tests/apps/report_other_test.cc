@@ -27,6 +27,8 @@ nlohmann::json spread(double mean, int runs = 3) {
   if (std::isnan(mean)) return {{"mean", nullptr}, {"deviation", nullptr}, {"runs", 0}};
   return {{"mean", mean},
           {"deviation", runs > 1 ? nlohmann::json(0.02 * mean) : nlohmann::json()},
+          {"low", runs > 1 ? 0.98 * mean : mean},
+          {"high", runs > 1 ? 1.02 * mean : mean},
           {"runs", runs}};
 }
 
@@ -59,8 +61,20 @@ TEST(ReportOther, rates_are_of_strain_where_the_scene_tells_the_height) {
   EXPECT_EQ(study.columns.front().title, "Axial strain rate (1/s)");
   EXPECT_NEAR(study.cases[0].labels[0], 0.5, 1e-12);
   EXPECT_NEAR(study.cases[1].labels[0], 4, 1e-12);
-  EXPECT_EQ(table_of(study).rows[0], (std::vector<std::string>{"slow", "0.5", "3", "-", "-", "40.0 +- 0.8",
-                                                               "24.00 +- 0.48", "-", "2.400 +- 0.048"}));
+  EXPECT_EQ(table_of(study).rows[0],
+            (std::vector<std::string>{"slow", "0.5", "3", "-", "-", "39.2 ... 40.8, 3 packings",
+                                      "23.52 ... 24.48, 3 packings", "-", "2.352 ... 2.448, 3 packings"}));
+}
+
+TEST(ReportOther, the_height_is_read_in_any_unit_of_length) {
+  const TestFolder folder;
+  write_study(folder, "rate",
+              {one_case("slow", {{"axial_rate_m_s", 0.03}}, 40e6),
+               one_case("fast", {{"axial_rate_m_s", 0.24}}, 42e6)});
+  for (const char *height : {"6 cm", "0.06", "60000 um", "0.6 dm"}) {
+    folder.write("scene.prm", std::string("subsection Specimen\n  set Height = ") + height + "\nend\n");
+    EXPECT_NEAR(read_parameter_study(folder.path()).cases[0].labels[0], 0.5, 1e-12) << height;
+  }
 }
 
 TEST(ReportOther, of_sizes_what_counts_is_how_many_spheres_lie_across) {

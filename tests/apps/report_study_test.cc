@@ -17,7 +17,11 @@ namespace {
 using Json = nlohmann::json;
 
 Json spread(double mean, double deviation, int runs = 3) {
-  return {{"mean", mean}, {"deviation", deviation}, {"runs", runs}};
+  return {{"mean", mean},
+          {"deviation", deviation},
+          {"low", mean - deviation},
+          {"high", mean + deviation},
+          {"runs", runs}};
 }
 
 Json case_of(const std::string &surface, const Json &friction, double slenderness, double strength) {
@@ -74,6 +78,7 @@ TEST(ReportStudy, its_table_has_a_row_for_each_case_with_the_laboratory_beside_i
   const StudyResults study = read_study(folder.path());
   ASSERT_EQ(study.cases.size(), 6u);
   EXPECT_DOUBLE_EQ(study.cases[0].strength.high, 62);
+  EXPECT_EQ(study.cases[0].strength.packings, 3);
   EXPECT_FALSE(study.cases[2].plain);
   ASSERT_EQ(study.remarks.size(), 3u);
   EXPECT_EQ(
@@ -85,11 +90,32 @@ TEST(ReportStudy, its_table_has_a_row_for_each_case_with_the_laboratory_beside_i
   ASSERT_EQ(table.rows.size(), 6u);
   for (const auto &row : table.rows)
     EXPECT_EQ(row.size(), table.header.size());
-  EXPECT_EQ(table.rows[0],
-            (std::vector<std::string>{"dry steel", "1", "3", "60.0 +- 2.0", "1.500 +- 0.050",
-                                      "1.42 (1.21 to 1.59)", "1.360 +- 0.040", "-", "-", "-"}));
-  EXPECT_EQ(table.rows[2][3], "> 70.0 +- 2.0");
+  EXPECT_EQ(table.rows[0], (std::vector<std::string>{"dry steel", "1", "3", "58.0 ... 62.0, 3 packings",
+                                                     "1.450 ... 1.550, 3 packings", "1.42 (1.21 to 1.59)",
+                                                     "1.320 ... 1.400, 3 packings", "-", "-", "-"}));
+  EXPECT_EQ(table.rows[2][3], "> 68.0 ... 72.0, 3 packings");
   EXPECT_EQ(table.rows[5][4], "-");
+}
+
+TEST(ReportStudy, a_deviation_is_of_five_packings_and_more_a_range_of_fewer) {
+  const auto of = [](Json statistics) { return words(over_seeds(statistics, 1e6), 1); };
+  EXPECT_EQ(of(spread(41.5e6, 1e6, 5)), "41.5 +- 1.0");
+  EXPECT_EQ(of(spread(41.5e6, 1e6, 4)), "40.5 ... 42.5, 4 packings");
+  EXPECT_EQ(of(spread(41.5e6, 0, 2)), "41.5, 2 packings");
+  Json one = spread(41.5e6, 0, 1), old = spread(41.5e6, std::sqrt(2.0) * 1e6, 2), older = spread(41.5e6, 1e6);
+  one["deviation"] = nullptr;
+  EXPECT_EQ(of(one), "41.5, 1 packing");
+  for (Json *without : {&old, &older})
+    without->erase("low"), without->erase("high");
+  EXPECT_EQ(of(old), "40.5 ... 42.5, 2 packings"); // two lie to both sides of their mean
+  EXPECT_EQ(of(older), "41.5, 3 packings");        // of three nobody knows
+  const Spread bars = over_seeds(spread(41.5e6, 1e6, 5), 1e6);
+  EXPECT_DOUBLE_EQ(bars.low, 40.5);
+  EXPECT_DOUBLE_EQ(bars.high, 42.5);
+  EXPECT_EQ(words_of_scatter(1), "; one packing: no scatter known");
+  EXPECT_EQ(words_of_scatter(4), "; bars: range of the packings");
+  EXPECT_EQ(words_of_scatter(5),
+            "; bars: standard deviation over the packings, of fewer than five their range");
 }
 
 TEST(ReportStudy, what_is_no_finished_study_of_platens_is_refused) {
