@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "apps/calibrate/abacus.h"
+#include "apps/calibrate/expected_pace.h"
 #include "apps/calibrate/found_report.h"
 #include "apps/calibrate/trials.h"
 #include "apps/io/file.h"
@@ -14,6 +15,7 @@
 #include "apps/run/app_output.h"
 #include "apps/run/needs.h"
 #include "apps/run/problem_setup.h"
+#include "apps/run/quasi_static.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/shell.h"
 #include "apps/scene/units.h"
@@ -22,12 +24,27 @@
 namespace platen::apps {
 namespace {
 
+// How many wave crossings the tests of wanted strengths are to take, and what helps where they are too few.
+std::string pace_of_tests(const Scene &scene, const Goals &goals) {
+  std::string text;
+  for (const ExpectedPace &one : expected_paces(scene, goals)) {
+    text += fmt::format("  {}: at {:.3g} m/s about {:.0f} wave crossings to the peak, {:g} at least\n",
+                        one.test, one.rate, one.transits, fewest_transits);
+    if (one.transits < fewest_transits)
+      text += fmt::format(
+          "    too fast to be quasi-static: such trials do not count. A lower {} helps: {:.2g} "
+          "m/s in this test\n",
+          one.entry, one.rate * one.transits / fewest_transits);
+  }
+  return text;
+}
+
 std::string description(const Scene &scene, const Goals *goals) {
   const Calibrate &c = scene.calibrate;
   return title_of(scene) +
          fmt::format("\n  {}: {} seeds to calibrate on, {} to judge by\n", word_of(calibrate_modes, c.mode),
                      c.seeds, goals != nullptr ? c.verification_seeds : 0) +
-         (goals != nullptr ? wishes(*goals) : "");
+         (goals != nullptr ? wishes(*goals) + pace_of_tests(scene, *goals) : "");
 }
 
 void tell_bounds(const Scene &scene, Trials &trials, RunLog &log, Json &s) {
@@ -73,7 +90,9 @@ void tell_trial(const Goals &goals, const std::vector<Knob> &knobs, const Choice
     if (!elastic || facts_of(knob).elastic) text += " " + text_of(knob, choice[knob]) + ",";
   text.back() = ':';
   for (const std::size_t k : elastic ? goals.wanted_elastic() : goals.wanted())
-    text += fmt::format(" {} {};", goals.all()[k].words, text_of(m.numbers[k], goals.all()[k].unit));
+    text += fmt::format(" {} {};", goals.all()[k].words,
+                        goals.all()[k].curve ? fmt::format("{:.4g}", goals.miss(k, m))
+                                             : text_of(m.numbers[k], goals.all()[k].unit));
   text.back() = '.';
   log.info("{}", text);
 }

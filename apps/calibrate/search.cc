@@ -55,6 +55,7 @@ private:
   std::vector<Choice> tried_;
   std::vector<Measured> measured_;
   int trials_ = 0;
+  std::string too_fast_; // why the first trial that told nothing was no quasi-static one
 };
 
 bool Pass::ends(const Measured &measured) const {
@@ -73,7 +74,10 @@ bool Pass::try_all(const std::vector<Eigen::VectorXd> &x) {
   bool told = false;
   for (std::size_t k = 0; k < x.size(); ++k) {
     const Eigen::VectorXd responses = goals_.responses(of_, measured[k]);
-    if (responses.size() == 0) continue;
+    if (responses.size() == 0) {
+      if (too_fast_.empty()) too_fast_ = measured[k].too_fast;
+      continue;
+    }
     told = true;
     at_.push_back(x[k]), tried_.push_back(choices[k]), measured_.push_back(measured[k]);
     model_.add(x[k], responses);
@@ -102,6 +106,7 @@ Found Pass::operator()() {
   const int most = elastic_ ? most_elastic : scene_.calibrate.most_trials;
   for (int in_vain = 0; x && !done() && trials_ < most;) {
     if (!try_all({*x})) {
+      if (!too_fast_.empty()) break; // weaker bonds fail sooner still
       if (++in_vain > most_weaker || !space_.free(Knob::tensile_strength)) break;
       x = space_.scaled(*x, Knob::tensile_strength, weaker);
       continue;
@@ -113,6 +118,10 @@ Found Pass::operator()() {
     take_differences(at_.at(model_.best()), near_difference); // the slopes there may be others
     x = model_.next();
   }
+  if (tried_.empty() && !too_fast_.empty())
+    throw NumericsError("no trial counts, " + too_fast_ +
+                        ". A lower Loading/Axial rate helps; in tension Calibrate/Tension rate, of one "
+                        "target its Rate; trials.csv has every trial");
   if (tried_.empty())
     throw NumericsError(
         elastic_ ? "no static solve came to an end; trials.csv says why"

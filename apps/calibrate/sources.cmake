@@ -3,6 +3,7 @@ set(PLATEN_CALIBRATE_SOURCES
   calibrate/abacus.cc
   calibrate/analysis.cc
   calibrate/choice.cc
+  calibrate/expected_pace.cc
   calibrate/found_report.cc
   calibrate/goal_words.cc
   calibrate/goals.cc

@@ -3,12 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "apps/io/stop_signal.h"
+#include "apps/run/at_peak.h"
 #include "apps/run/controls.h"
 #include "apps/run/peak.h"
 #include "apps/run/problem_setup.h"
+#include "apps/run/quasi_static.h"
 #include "apps/scene/parameters.h"
 #include "coupling/static_press.h"
+#include "dem/integrator.h"
 #include "dem/measure/gauge.h"
 
 namespace platen::apps {
@@ -83,6 +89,38 @@ bool consolidated(const coupling::PlatenTest &problem) {
   return std::all_of(told.begin(), told.end(), [](const auto &one) { return one.is_met(); });
 }
 
+// What tells whether the test is slow enough.
+Sample pace_of(const coupling::PlatenTest &problem) {
+  const dem::Model &model = problem.model;
+  Sample s;
+  s.time = problem.time();
+  s.stress_top = problem.stress_top(), s.stress_bottom = problem.stress_bottom();
+  s.kinetic = dem::kinetic_energy(model.particles); // a trial keeps no ledger
+  s.bond = model.bond_totals().energy;
+  s.contact = model.contacts ? model.contacts->energy() : 0;
+  s.unbalanced = problem.unbalanced_ratio();
+  s.platen_speed = problem.platen_speed();
+  return s;
+}
+
+// From a tenth of the peak to the peak, as platen-compress judges it; "" where it was slow enough. `paces`:
+// of the readings, the first before the platens move.
+std::string haste(const coupling::PlatenTest &problem, const std::vector<Reading> &all,
+                  const std::vector<Sample> &paces) {
+  constexpr double from = 0.1; // of the peak
+  constexpr int axis = 2;
+  const auto stress = [](const Reading &a, const Reading &b) { return a.stress < b.stress; };
+  const auto top = std::max_element(all.begin(), all.end(), stress);
+  const auto first =
+      std::find_if(all.begin(), top, [&](const Reading &one) { return one.stress >= from * top->stress; });
+  const std::vector<Sample> rise(paces.begin() + (first - all.begin()),
+                                 paces.begin() + (top - all.begin()) + 1);
+  Slowness s = slowness(problem, rise, axis);
+  s.wave_transits = wave_transits(problem, axis, rise.back().time - paces.front().time);
+  const std::vector<std::string> reasons = reasons_not_quasi_static(s, false);
+  return reasons.empty() ? "" : fmt::format("{}: {}", TrialResult::too_fast_words, fmt::join(reasons, "; "));
+}
+
 std::vector<Reading> load(coupling::PlatenTest &problem, const Scene &scene, const SpecimenTest &test,
                           TrialResult &result) {
   const double sign = test.kind == TestKind::tension ? -1 : 1, target = scene.loading.target_strain;
@@ -104,12 +142,14 @@ std::vector<Reading> load(coupling::PlatenTest &problem, const Scene &scene, con
     advance(steps);
   const Reading start = problem.cell() ? read() : Reading{};
   std::vector<Reading> all{{}};
+  std::vector<Sample> paces{pace_of(problem)};
   double peak = 0, confined = 1; // Pa; of the lateral surface, at the peak
   bool fell = false;
   while (all.back().strain_platen < target && !(fell && all.back().strain_platen >= test.curve_strain)) {
     for (long made = 0; made < steps;)
       made += advance(std::min(steps - made, between_signals));
     all.push_back(read().minus(start));
+    paces.push_back(pace_of(problem));
     const Reading &now = all.back();
     if (now.stress > peak) {
       peak = now.stress, result.strain_at_peak = now.strain_platen, fell = false;
@@ -117,16 +157,18 @@ std::vector<Reading> load(coupling::PlatenTest &problem, const Scene &scene, con
     }
     fell = fell || (now.damaged && now.strain_platen > begun * target && now.stress < fallen * peak);
   }
+  const bool peaked = reached_peak(all);
+  const std::string too_fast = peaked ? haste(problem, all, paces) : "";
   if (!consolidated(problem) || confined < least_confined) {
     result.strain_at_peak = not_given;
     result.status = consolidated(problem) ? "the cell's pressure does not load the specimen at its peak"
                                           : "the cell's pressure was not reached on all sides";
-  } else if (reached_peak(all)) {
+  } else if (peaked && too_fast.empty()) {
     result.strength = peak + start.stress;
     add_moduli(all, peak, result);
   } else {
     result.strain_at_peak = not_given;
-    result.status = "no peak before the largest strain";
+    result.status = peaked ? too_fast : "no peak before the largest strain";
   }
   return all;
 }
@@ -151,7 +193,7 @@ TrialResult run_test(const Scene &scene, const dem::Specimen &specimen, const Ch
       return result;
     }
     const std::vector<Reading> all = load(problem, s, test, result);
-    if (test.curve_strain > 0) add_curve(all, test, result);
+    if (test.curve_strain > 0 && !result.too_fast()) add_curve(all, test, result);
   } catch (const coupling::NumericsStopped &e) {
     result.status = scene.parameters->with_entries(e.what());
   }

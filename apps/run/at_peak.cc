@@ -4,10 +4,14 @@
 
 namespace platen::apps {
 
-double wave_transits_to_peak(const coupling::PlatenTest &problem, const Results &results) {
-  const double share = coupling::length(problem.shape(), results.axis()) / problem.shape().height;
+double wave_transits(const coupling::PlatenTest &problem, int axis, double seconds) {
+  const double share = coupling::length(problem.shape(), axis) / problem.shape().height;
   const double transit = share * problem.facts().wave_transit;
-  return transit > 0 ? results.axial_time_to_peak() / transit : not_measured;
+  return transit > 0 ? seconds / transit : not_measured;
+}
+
+double wave_transits_to_peak(const coupling::PlatenTest &problem, const Results &results) {
+  return wave_transits(problem, results.axis(), results.axial_time_to_peak());
 }
 
 double flexural_modulus(const coupling::PlatenTest &problem, const Results &results) {

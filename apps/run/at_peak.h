@@ -10,6 +10,9 @@ namespace platen::apps {
 // the share changes by a sixth.
 constexpr double assumed_poisson_ratio = 0.2;
 
+// How often a wave crosses the length of an axis in so many seconds; NaN without bonds.
+double wave_transits(const coupling::PlatenTest &problem, int axis, double seconds);
+
 // Speed of a slow test: how often a wave crosses the specimen, along the axis that is loaded, from the start
 // of the axial stage to the peak.
 double wave_transits_to_peak(const coupling::PlatenTest &problem, const Results &results);

@@ -176,7 +176,7 @@ void CompressionRun::tell_doubts() {
   tell_misses(0);
   const std::vector<std::string> reasons =
       reasons_not_quasi_static(slowness(*test_, results_), test_->bent());
-  if (!reasons.empty())
+  if (!reasons.empty() && knows_slowness(results_, costs().ended_by))
     log_.warning("too fast to be quasi-static, a lower Loading/Axial rate helps: {}",
                  fmt::join(reasons, "; "));
   constexpr double most_unbalanced = 0.01; // of the work

@@ -181,7 +181,8 @@ std::string report_of_run(const Scene &scene, const coupling::PlatenTest &proble
   if (problem.bent())
     report.line("swings of the bar to the peak", "{:.1f}", oscillations_to_peak(problem, results));
   else
-    report.line("wave crossings to the peak", "{:.0f}", transits);
+    report.line(results.peak().reached() ? "wave crossings to the peak" : "wave crossings to that stress",
+                "{:.0f}", transits);
   report.line("unbalanced over bond forces, median", "{:.2e}", slowness(problem, results).unbalanced);
   report.line("steps, seconds", "{}, {:.1f} ({:.1f} M bond-steps/s)", problem.steps(), costs.wall_seconds,
               problem.model.bonds && costs.step_seconds > 0

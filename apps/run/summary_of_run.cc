@@ -135,13 +135,16 @@ void add_peak(Json &to, const Results &results) {
   to["stress_at_end_pa"] = results.stress_at_end();
 }
 
-// Without a peak nothing is told.
-void add_slowness(Json &to, const coupling::PlatenTest &problem, const Results &results) {
+// Of a run that was stopped before its peak nothing is told: the way to it is not known.
+void add_slowness(Json &to, const coupling::PlatenTest &problem, const Results &results,
+                  const RunCosts &costs) {
   const Slowness slow = slowness(problem, results);
   to["unbalanced_force_median"] = slow.unbalanced;
   to["inertial_number_max"] = slow.inertial;
-  const bool told = !std::isnan(slow.kinetic) || !std::isnan(slow.wave_transits);
-  const std::vector<std::string> reasons = reasons_not_quasi_static(slow, problem.bent());
+  const bool told = knows_slowness(results, costs.ended_by) &&
+                    (!std::isnan(slow.kinetic) || !std::isnan(slow.wave_transits));
+  const std::vector<std::string> reasons =
+      told ? reasons_not_quasi_static(slow, problem.bent()) : std::vector<std::string>{};
   to["quasi_static"] = told ? Json(reasons.empty()) : Json();
   to["signs_of_haste"] = reasons;
 }
@@ -227,7 +230,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
     s["platen_unbalanced_work_relative"] = results.platen_unbalanced_work_relative();
   s["kinetic_to_internal_max"] = results.kinetic_to_internal_max();
   s["wave_crossings_to_peak"] = wave_transits_to_peak(problem, results);
-  add_slowness(s, problem, results);
+  add_slowness(s, problem, results, costs);
   add_pattern(s, "", results.pattern());
   add_pattern(s, "final_", results.last_pattern());
   s["barrel_at_peak"] = results.barrel_at_peak();

@@ -49,7 +49,7 @@ subsection Platens
   set Friction static = 0.57
 end
 subsection Loading
-  set Axial rate = 0.4 m/s
+  set Axial rate = 0.16 m/s
   set Target strain = 0.02
 end
 subsection Calibrate
@@ -282,6 +282,65 @@ TEST_F(CalibrateApp, runs_without_a_peak_are_counted_and_not_fatal) {
   EXPECT_EQ(s["status"], "done");
   EXPECT_NEAR(s["strength_pa"].get<double>(), 20e6, 2e6);
   EXPECT_NE(text_of(folder / "a/trials.csv").find("no peak before the largest strain"), std::string::npos);
+}
+
+// What a fast test bears is not the specimen's strength: no bonds are found by it.
+TEST_F(CalibrateApp, trials_that_are_too_fast_do_not_count) {
+  const std::vector<std::string> asked{"Calibrate/Compressive strength = 40 MPa",
+                                       "Calibrate/Young modulus = 24 GPa", "Calibrate/Seeds = 1",
+                                       "Calibrate/Verification seeds = 0", "Loading/Axial rate = 0.8 m/s"};
+  CommandLine command;
+  command.scene = (folder / "case.prm").string();
+  command.output = (folder / "fast").string();
+  command.overrides = asked;
+  command.quiet = true;
+  try {
+    run_calibrate(command, read(asked));
+    ADD_FAILURE() << "bonds were found by trials that were too fast";
+  } catch (const NumericsError &error) {
+    const std::string says = error.what();
+    for (const char *part : {"no trial counts, too fast to be quasi-static", "wave crossings to the peak",
+                             "A lower Loading/Axial rate helps"})
+      EXPECT_NE(says.find(part), std::string::npos) << says;
+  }
+  const std::string rows = text_of(folder / "fast/trials.csv");
+  const auto compression = rows.find("\ncompression");
+  ASSERT_NE(compression, std::string::npos) << rows;
+  EXPECT_NE(rows.find("too fast to be quasi-static", compression), std::string::npos) << rows;
+  EXPECT_EQ(rows.find("\ncompression", compression + 1), std::string::npos) << rows; // one is enough
+  // Before anything is packed the dry run says so, and of a slow one nothing.
+  const auto told = [&](const char *rate) {
+    std::vector<std::string> entries = asked;
+    entries.back() = std::string("Loading/Axial rate = ") + rate;
+    command.dry_run = true;
+    ::testing::internal::CaptureStdout();
+    EXPECT_EQ(run_calibrate(command, read(entries)), status_done);
+    return ::testing::internal::GetCapturedStdout();
+  };
+  EXPECT_NE(told("0.8 m/s").find("too fast to be quasi-static: such trials do not count"), std::string::npos);
+  EXPECT_NE(told("0.8 m/s").find("A lower Loading/Axial rate helps: 0."), std::string::npos)
+      << told("0.8 m/s");
+  EXPECT_EQ(told("0.05 m/s").find("too fast"), std::string::npos) << told("0.05 m/s");
+}
+
+// Screen, summary and page tell one number of a curve: that which decides whether it is met.
+TEST_F(CalibrateApp, a_curve_is_told_by_what_it_is_judged_by) {
+  std::ofstream(folder / "curve.csv") << "strain_platen,stress_mpa\n0.001,15\n0.002,28\n0.003,30\n";
+  const auto s = run(
+      {"Calibrate/Seeds = 2", "Calibrate/Verification seeds = 0", "Calibrate/Most trials = 1",
+       "Calibrate/Free = modulus, tensile strength", "Calibrate/Target 1/Kind = curve",
+       "Calibrate/Target 1/File = " + (folder / "curve.csv").string(), "Calibrate/Target 1/Tolerance = 0.01"},
+      "a");
+  const double miss = s["targets"][0]["training_miss"];
+  ASSERT_GT(std::abs(s["training"]["curve_miss"]["mean"].get<double>() - miss), 1e-3 * miss)
+      << "the packings agree: nothing is tested";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", miss);
+  const std::string log = text_of(folder / "a/run.log");
+  EXPECT_NE(log.find(std::string("miss of the curve ") + text), std::string::npos) << log;
+  EXPECT_NE(log.find(std::string("miss of the curve"), log.find("calibrated on")), std::string::npos) << log;
+  const auto row = log.find("miss of the curve", log.find("calibrated on"));
+  EXPECT_NE(log.substr(row, log.find('\n', row) - row).find(text), std::string::npos) << log.substr(row, 120);
 }
 
 TEST_F(CalibrateApp, what_is_out_of_reach_is_told_with_the_nearest) {

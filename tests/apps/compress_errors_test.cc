@@ -507,7 +507,57 @@ TEST_F(Errors, an_expected_number_that_does_not_come_out_is_status_one) {
   EXPECT_TRUE(contains(told, "is not in 1 ... 2")) << told;
   EXPECT_FALSE(contains(told, "expect.prm:9:")) << told;
   EXPECT_FALSE(contains(told, "expect.prm:11:")) << told;
-  EXPECT_EQ(summary_in(folder_ / "results")["status"], "done");
+  const nlohmann::json summary = summary_in(folder_ / "results");
+  EXPECT_EQ(summary["status"], "done");
+  ASSERT_EQ(summary["expectations"].size(), 3u);
+  for (const auto &one : summary["expectations"]) {
+    EXPECT_EQ(one["met"], one["entry"] != "Expect/energy_residual_relative") << one;
+    EXPECT_TRUE(one["value"].is_number()) << one;
+  }
+}
+
+// Before the peak nobody knows how slow the way to it is, nor whether the figures come out as expected.
+TEST_F(Errors, a_run_that_is_stopped_before_its_peak_is_not_judged) {
+  scene("expect.prm", "subsection Expect\n  set strength_pa = 1 Pa ... 2 Pa\nend\n");
+  Program program(compress_command({"expect.prm", "-o", "results", "-t", "1"}), folder_);
+  ASSERT_TRUE(program.wait_until([&] { return lines_in(folder_ / "results/history.csv") >= 12; }));
+  program.send(SIGINT);
+  ASSERT_EQ(program.wait(), 130);
+  const nlohmann::json s = summary_in(folder_ / "results");
+  ASSERT_EQ(s["status"], "stopped");
+  ASSERT_EQ(s["peak_reached"], false);
+  EXPECT_EQ(s["quasi_static"], nullptr);
+  EXPECT_TRUE(s["signs_of_haste"].empty()) << s["signs_of_haste"];
+  const std::string log = content_of(folder_ / "results/run.log");
+  EXPECT_FALSE(contains(log, "too fast")) << log;
+  EXPECT_FALSE(contains(log, "crossings to the peak")) << log;
+  ASSERT_EQ(s["expectations"].size(), 1u);
+  EXPECT_EQ(s["expectations"][0]["met"], nullptr);
+  EXPECT_EQ(s["expectations"][0]["reason"], "the test has not come to its end");
+  // The whole run is: it was too fast (45 wave crossings of 60).
+  const Outcome rest = run_compress({"expect.prm", "-o", "results", "--resume"}, folder_);
+  EXPECT_EQ(rest.status, 1) << rest.error;
+  const nlohmann::json whole = summary_in(folder_ / "results");
+  EXPECT_EQ(whole["quasi_static"], false);
+  EXPECT_TRUE(contains(content_of(folder_ / "results/run.log"), "wave crossings to the peak, 60 at least"));
+  EXPECT_EQ(whole["expectations"][0]["met"], false);
+}
+
+// Who reads the page is to know what was run: not what the scene file says of it.
+TEST_F(Errors, what_was_overridden_is_in_the_summary_with_what_the_scene_file_has) {
+  scene("case.prm", "subsection Expect\n  set particles = 1 ...\nend\n");
+  ASSERT_EQ(run_compress({"case.prm", "-o", "results", "--quiet", "-s", "Loading/Target strain = 0.0002",
+                          "-s", "Contact/Friction = 0.5", "-s", "Output/Fields = off"},
+                         folder_)
+                .status,
+            0);
+  const nlohmann::json s = summary_in(folder_ / "results");
+  EXPECT_EQ(s["scene_file"], "case.prm");
+  const nlohmann::json changed = {
+      {{"entry", "Loading/Target strain"}, {"value", "0.0002"}, {"in_scene_file", "0.008"}},
+      {{"entry", "Output/Fields"}, {"value", "off"}, {"in_scene_file", "on"}}};
+  EXPECT_EQ(s["overridden"], changed); // not the friction, which the file has too
+  EXPECT_NEAR(s["mean_radius_m"].get<double>(), 0.85e-3, 0.1e-3);
 }
 
 // Narrow faces of a thin sleeve are driven into the gaps between spheres.
