@@ -1,4 +1,5 @@
 // platen-report as a user runs it: exit statuses, messages, and what its pictures show.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <vtkImageData.h>
@@ -11,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "apps/io/file.h"
 #include "apps/report/embedded.h"
@@ -104,6 +107,40 @@ TEST(ReportApp, every_picture_is_drawn_without_a_display_and_is_neither_empty_no
   EXPECT_NE(page.find("dry platens"), std::string::npos);
   EXPECT_NE(page.find("on top 45 degrees (confidence 0.80), at the bottom 30 degrees"), std::string::npos);
   EXPECT_NE(page.find("data:image/png;base64,iVBOR"), std::string::npos); // how every PNG begins
+}
+
+// The apex stands aside along x, the axis leans along y: by which of both the specimen is turned must not hang
+// on its size.
+TEST(ReportApp, cones_look_the_same_at_any_size) {
+  const TestFolder folder;
+  const auto picture_of = [&](double times) {
+    const auto of = folder / fmt::format("times {:g}", times);
+    ExampleRun example;
+    example.radius *= times, example.height *= times, example.spacing *= times;
+    write_example(of, example);
+    nlohmann::json summary = nlohmann::json::parse(text_of(of / "summary.json"));
+    for (const char *key : {"cone_top", "cone_bottom"}) {
+      summary[key]["apex_m"][0] = 0.008 * times;
+      summary[key]["axis"][1] = 0.3;
+      summary[key]["axis"][2] = (std::string(key) == "cone_top" ? 1 : -1) * std::sqrt(1 - 0.3 * 0.3);
+    }
+    std::ofstream(of / "summary.json") << summary.dump();
+    const Outcome outcome = run(folder, quoted(of), "env -u DISPLAY");
+    EXPECT_EQ(outcome.status, status_done) << outcome.error;
+    return read_png(of / "pictures" / "cones.png");
+  };
+  const Image first = picture_of(1);
+  for (const double times : {10.0, 0.1}) {
+    const Image other = picture_of(times);
+    ASSERT_EQ(other.width, first.width);
+    ASSERT_EQ(other.height, first.height);
+    int differ = 0;
+    for (int y = 0; y < first.height; ++y)
+      for (int x = 0; x < first.width; ++x)
+        differ += std::abs(first.at(x, y, 0) - other.at(x, y, 0)) > 40 ||
+                  std::abs(first.at(x, y, 2) - other.at(x, y, 2)) > 40;
+    EXPECT_LT(differ, 0.002 * first.width * first.height) << times; // but for edges of spheres
+  }
 }
 
 // Shaded: smooth, of which a PNG is large and a JPEG small. Flat: as a chart.
