@@ -34,7 +34,11 @@ constexpr double times_of_servo = 4;
 class ProgramMaker {
 public:
   ProgramMaker(const PlatenTest &test, const std::vector<StageSettings> &stages)
-      : test_(test), settings_(stages), lateral_(test.sides().lateral) {}
+      : test_(test),
+        settings_(stages),
+        lateral_(test.sides().lateral),
+        axis_(loaded_axis(test)),
+        sense_(test.settings().loading.tension ? -1 : 1) {}
 
   std::unique_ptr<Program> operator()() {
     std::vector<std::unique_ptr<Stage>> stages;
@@ -90,7 +94,7 @@ private:
     for (const auto &drive : drives_)
       if (drive->platens().places == platens.places) return drive;
     drives_.push_back(std::make_shared<Drive>(
-        Drive::Parameters{platens, platens.axis == 2 ? test_.rate_control() : std::nullopt}));
+        Drive::Parameters{platens, platens.axis == 2 ? test_.rate_control() : std::nullopt, sense_}));
     return drives_.back();
   }
 
@@ -217,9 +221,8 @@ private:
 
   // A strain falls where its axis is unloaded.
   double direction(const StageSettings &stage, SideGroup of) const {
-    const double first = test_.settings().loading.tension ? -1 : 1;
     for (const SideAsk &ask : stage.asks)
-      if (ask.ask == Ask::rate && platens(ask.side).axis == platens(of).axis && rate_of(ask) * first < 0)
+      if (ask.ask == Ask::rate && platens(ask.side).axis == platens(of).axis && rate_of(ask) * sense_ < 0)
         return -1;
     return 1;
   }
@@ -259,21 +262,51 @@ private:
     return most;
   }
 
+  bool is_loaded(const SideAsk &ask) const {
+    return !(lateral_ && ask.side == SideGroup::lateral) && platens(ask.side).axis == axis_;
+  }
+
+  // What a stage asks of sides that the test does not load is what it found, or something else. A share that
+  // is asked from the start grows with the stress that it follows, without a change of its own.
+  void add_sides(const std::vector<SideAsk> &asks, LoadingStage::Parameters &of) {
+    bool changed = false;
+    for (const SideAsk &ask : asks) {
+      if (is_loaded(ask) || ask.ask == Ask::hold) continue;
+      for (const Side side : sides_of(ask.side)) {
+        SideAsk &last = of_sides_[static_cast<std::size_t>(side)];
+        const bool same = last.ask == ask.ask && last.of == ask.of &&
+                          (last.value == ask.value || (std::isnan(last.value) && std::isnan(ask.value)));
+        changed = changed || !same;
+        of.changes_sides = of.changes_sides || (!same && !(ask.ask == Ask::share && setting_ == 0));
+        last = ask;
+      }
+    }
+    if (changed) ++setting_;
+    of.setting = setting_;
+  }
+
   std::unique_ptr<Stage> made(const StageSettings &stage, bool consolidates) {
     const double ramp = ramp_of(stage);
     const std::vector<SideAsk> asks = asks_of(stage);
+    LoadingStage::Parameters parameters{stage.name, consolidates, expected_seconds(stage, ramp), sense_};
+    add_sides(asks, parameters);
     std::vector<std::unique_ptr<Task>> tasks;
-    for (const SideAsk &ask : asks)
+    for (const SideAsk &ask : asks) {
+      if (is_loaded(ask) && ask.ask != Ask::hold) parameters.loading.push_back(tasks.size());
+      parameters.parts = parameters.parts || (ask.ask == Ask::rate && rate_of(ask) * sense_ < 0);
       tasks.push_back(task(ask, ramp, consolidates));
+    }
     add_holds(asks, tasks);
-    return std::make_unique<LoadingStage>(
-        LoadingStage::Parameters{stage.name, consolidates, expected_seconds(stage, ramp)}, std::move(tasks),
-        end_of(stage, ramp));
+    return std::make_unique<LoadingStage>(std::move(parameters), std::move(tasks), end_of(stage, ramp));
   }
 
   const PlatenTest &test_;
   const std::vector<StageSettings> &settings_;
   std::optional<std::size_t> lateral_;
+  int axis_;                                   // that the test loads
+  double sense_;                               // 1 in compression, -1 in tension
+  std::array<SideAsk, side_count> of_sides_{}; // what was last asked of each that is not loaded
+  int setting_ = 0;                            // how often that has changed
   std::vector<std::shared_ptr<Drive>> drives_;
 };
 

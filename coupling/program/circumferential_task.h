@@ -26,6 +26,7 @@ public:
   void begin(const Measures &m, double begun, const Handover &from) override;
   void command(const Measures &m, Commands &asked) override;
   double fastest() const override { return parameters_.fastest; }
+  Loads loads(double) const override { return Loads::by_widening; }
   std::optional<Controlled> controlled(const Measures &m) const override; // the mean rates of the stage
   void describe(Archive &archive) override;
 

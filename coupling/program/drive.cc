@@ -21,8 +21,8 @@ void Drive::ask(double rate, double ramp, const Measures &m, double begun) {
     begun_ = begun;
     factor_ = sign;
   }
-  if (first_ == 0) first_ = sign;
-  if (sign != first_ && rate_ * first_ > 0) turned_ = true, strain_of_turn_ = loaded_strain(m);
+  const double sense = parameters_.sense;
+  if (sign != sense && rate_ * sense > 0) turned_ = true, strain_of_turn_ = loaded_strain(m);
   rate_ = rate, ramp_ = ramp;
 }
 
@@ -47,18 +47,19 @@ void Drive::update(const Measures &m) {
 }
 
 double Drive::loaded_strain(const Measures &m) const {
-  return first_ * m.closure_strain(parameters_.platens.axis);
+  return parameters_.sense * m.closure_strain(parameters_.platens.axis);
 }
 
 bool Drive::is_cycling(const Measures &m) const {
-  return turned_ && (rate_ * first_ < 0 || loaded_strain(m) < strain_of_turn_);
+  return turned_ && (rate_ * parameters_.sense < 0 || loaded_strain(m) < strain_of_turn_);
 }
 
 void Drive::describe(Archive &archive) {
   archive.version(1);
   archive("rate", rate_, "m/s");
   archive("ramp", ramp_, "s", at_least(0));
-  archive("first_direction", first_, "1", between(-1, 1));
+  double sense = rate_ == 0 ? 0 : parameters_.sense; // which states kept that took it from the first rate
+  archive("first_direction", sense, "1", between(-1, 1));
   archive("begun", begun_, "s");
   archive("driven_until", until_, "s");
   archive("factor", factor_);

@@ -19,6 +19,7 @@ public:
   struct Parameters {
     PlatensOfAxis platens;
     std::optional<RateControl::Parameters> rate_control; // of the axial platens; none: one rate
+    double sense = 1;                                    // of the test: 1 compression, -1 tension
   };
   explicit Drive(const Parameters &parameters);
 
@@ -34,18 +35,17 @@ public:
   void update(const Measures &m); // after forces
   const PlatensOfAxis &platens() const { return parameters_.platens; }
   double multiplier() const { return parameters_.rate_control ? parameters_.rate_control->multiplier : 1.0; }
-  // From a turn against the first direction until the strain of the turn has been reached again.
+  // From a turn against the sense of the test until the strain of the turn has been reached again.
   bool is_cycling(const Measures &m) const;
   void describe(Archive &archive);
 
 private:
-  double loaded_strain(const Measures &m) const; // positive the way it was loaded first
+  double loaded_strain(const Measures &m) const; // positive in the sense of the test
 
   Parameters parameters_;
   std::optional<RateControl> rate_control_;
   double rate_ = 0;               // m/s, asked now; 0: never asked
   double ramp_ = 0;               // s
-  double first_ = 0;              // sign of the first rate
   double begun_ = 0, until_ = -1; // s: of the start from rest; to which it has driven
   double factor_ = 0;             // on |rate|, on its way to the sign of the rate
   bool turned_ = false;
@@ -64,6 +64,7 @@ public:
   // The mean rates of the stage: of the machine, and of the faces.
   std::optional<Controlled> controlled(const Measures &m) const override;
   double fastest() const override;
+  Loads loads(double sense) const override { return rate_ * sense > 0 ? Loads::by_closure : Loads::none; }
   void describe(Archive &archive) override; // the drive is the program's
 
 private:

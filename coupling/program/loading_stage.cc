@@ -83,6 +83,19 @@ double LoadingStage::progress(const Measures &m) const {
   return std::min(1.0, passed / expected);
 }
 
+// Where one platen is loaded on and its opposite is not, the stress of both is no stress of loading.
+Loads LoadingStage::loads(const Measures &m) const {
+  const bool changing = parameters_.changes_sides && m.time() - begun() < end_.parameters().ramp;
+  if (parameters_.consolidates || parameters_.parts || changing) return Loads::none;
+  Loads all = Loads::none;
+  for (const std::size_t k : parameters_.loading) {
+    const Loads one = tasks_[k]->loads(parameters_.sense);
+    if (one == Loads::none) return Loads::none;
+    if (all == Loads::none || one != Loads::by_closure) all = one;
+  }
+  return all;
+}
+
 double LoadingStage::fastest() const {
   double most = 0;
   for (const auto &task : tasks_)

@@ -16,6 +16,11 @@ public:
     std::string name;
     bool consolidates = false; // all sides alike, before the axial loading: strains count from its end
     double expected_seconds = 0;
+    double sense = 1;                      // of the test: 1 compression, -1 tension
+    std::vector<std::size_t> loading = {}; // tasks that ask something of the axis that the test loads
+    bool parts = false;                    // platens part at a rate, on whatever side
+    bool changes_sides = false;            // other sides go to another stress or pressure within the ramp
+    int setting = 0;                       // how often they have been asked something else, with this
   };
   LoadingStage(Parameters parameters, std::vector<std::unique_ptr<Task>> tasks, StageEnd end);
 
@@ -32,6 +37,8 @@ public:
   double progress(const Measures &m) const override;
   double fastest() const override;
   bool is_consolidation() const override { return parameters_.consolidates; }
+  Loads loads(const Measures &m) const override;
+  int setting() const override { return parameters_.setting; }
   void describe(Archive &archive) override;
 
 protected:

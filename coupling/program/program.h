@@ -71,6 +71,10 @@ struct Controlled {
   bool is_met() const;
 };
 
+// Whether a stage loads the axis of the test on, in the sense of the test, and by what: a stress that falls
+// where it is not loaded on falls by command, and one that stays while a stress is asked stays by command.
+enum class Loads { none, by_closure, by_stress, by_widening };
+
 class Stage {
 public:
   virtual ~Stage() = default;
@@ -99,6 +103,10 @@ public:
   virtual bool is_consolidation() const { return false; } // all sides alike, before the axial loading
   // From a turn of the platens until the strain of the turn has been reached again.
   virtual bool is_cycling(const Measures &) const { return false; }
+  // Of the axis that the test loads. A stage of one's own that unloads says `none`.
+  virtual Loads loads(const Measures &) const { return Loads::by_closure; }
+  // Counts how often other sides have been asked something else: stresses compare within one number.
+  virtual int setting() const { return 0; }
 
   double begun() const { return begun_; } // s
   double closure_gained(const Measures &m) const { return m.closure_strain() - closure_at_begin_; }
@@ -144,6 +152,7 @@ public:
   double axial_closure() const;
   bool in_axial_stage() const { return finished_ || !stage().is_consolidation(); }
   bool is_cycling() const;
+  Loads loads() const { return stage().loads(measures_); }
   std::size_t stage_number() const { return now_; } // from 0
   std::size_t stage_count() const { return stages_.size(); }
   std::size_t stages_ended() const { return now_ + (finished_ ? 1 : 0); }

@@ -107,6 +107,12 @@ std::optional<Controlled> StressTask::controlled(const Measures &m) const {
   return c;
 }
 
+// A stress that is asked again, within what counts as reached, is no lower one.
+Loads StressTask::loads(double sense) const {
+  const bool asks = !parameters_.followed && sense > 0 && parameters_.value > 0;
+  return asks && parameters_.value >= (1 - settled_share) * stress_found_ ? Loads::by_stress : Loads::none;
+}
+
 void StressTask::describe(Archive &archive) {
   archive.version(1);
   archive("begun", begun_, "s");

@@ -43,6 +43,7 @@ public:
   // hundredth of what the stage found, or of the axial one.
   std::optional<Controlled> controlled(const Measures &m) const override;
   double fastest() const override { return parameters_.servo.velocity_limit; }
+  Loads loads(double sense) const override;
   void describe(Archive &archive) override;
 
 private:

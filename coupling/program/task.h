@@ -47,6 +47,8 @@ public:
   // What it asks of its side in the end and what is reached now; none of what is only held in its place.
   virtual std::optional<Controlled> controlled(const Measures &) const { return std::nullopt; }
   virtual double fastest() const { return 0; } // m/s, closure speed that it may ask for
+  // Whether it loads its axis on; sense: 1 in compression, -1 in tension.
+  virtual Loads loads(double /*sense*/) const { return Loads::none; }
   virtual void describe(Archive &archive) = 0;
 };
 
