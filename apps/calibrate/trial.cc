@@ -79,7 +79,7 @@ bool reached_peak(const std::vector<Reading> &all) {
   std::vector<CurvePoint> curve;
   for (const Reading &one : all)
     curve.push_back({one.strain_platen, one.stress, one.damaged});
-  return judge_peak(curve, false).reached();
+  return judge_peak(curve).reached();
 }
 
 // All sides bore the cell's pressure when the platens took over; true without a cell.

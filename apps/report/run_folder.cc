@@ -171,6 +171,21 @@ Moments moments_of(const CsvTable &history, int axis) {
   return moments;
 }
 
+// The summary's, of one sample: where pressures change or stages hold and unload, the peak is not the largest
+// stress, and a stress that falls by command is no fall. Older summaries say neither.
+void Run::take_moments() {
+  moments = moments_of(history, axis);
+  const double peak = number_in(summary, "peak_time_s");
+  if (!std::isnan(peak)) {
+    moments.peak_row = row_at(history, peak);
+    moments.peak_stress = stress()[moments.peak_row];
+    moments.peak_time = history.column("time_s")[moments.peak_row];
+  }
+  if (!summary.is_object() || !summary.contains("fall_time_s")) return;
+  const double fall = number_in(summary, "fall_time_s");
+  moments.post_peak_time = std::isnan(fall) ? std::nullopt : std::optional<double>(fall);
+}
+
 std::vector<double> Run::strain() const {
   return since_zero(axis == 0 ? "strain_x" : axis == 1 ? "strain_y" : "axial_strain_platen");
 }
@@ -224,7 +239,7 @@ Run read_run(const fs::path &folder) {
   run.title = scene_entry(folder / "scene.prm", "Scene/Title");
   run.title = valid_utf8(true_title(run.title.empty() ? run.name : run.title, folder, run.summary));
   run.axis = loaded_axis(run.summary);
-  run.moments = moments_of(run.history, run.axis);
+  run.take_moments();
   run.zero = zero_row(run);
   if (!run.moments.post_peak_time)
     run.remarks.push_back("the stress did not fall to 0.8 of the peak: crack patterns are shown at the end");

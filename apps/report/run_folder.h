@@ -43,6 +43,7 @@ struct Run {
   FrameSeries specimen, bonds, platens, contacts, sleeve; // empty where the run wrote none
   std::vector<std::string> remarks;                       // what is not there, one sentence each
 
+  void take_moments(); // from history and summary
   // Along the loaded axis, one per row of the history: Pa; of the platens, 1.
   std::vector<double> stress() const { return platen_stress(history, axis); }
   std::vector<double> strain() const; // from the end of the consolidation

@@ -68,14 +68,6 @@ void require_prompt_platens(const coupling::PlatenTest &test) {
           behind, transit, latest_by_transits));
 }
 
-// The axial platens follow how the specimen widens.
-bool is_led_by_widening(const coupling::PlatenTest &test) {
-  for (const coupling::StageSettings &stage : test.settings().loading.stages)
-    for (const coupling::SideAsk &ask : stage.asks)
-      if (ask.ask == coupling::SideAsk::Ask::circumferential) return true;
-  return false;
-}
-
 // The packing that the first part wrote; the list of ids may have changed since.
 dem::Specimen resumed(const Scene &scene, const OutputPaths &paths) {
   dem::Specimen specimen = read_specimen_csv(paths.specimen_csv()).specimen;
@@ -109,7 +101,7 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   specimen_state_ = state_of(specimen, *test_);
   require_specimen(scene, specimen_state_);
   results_ = Results(scene.loading.test == LoadingTest::tension, {scene.output.sound_share},
-                     coupling::loaded_axis(*test_), tells_pattern(scene, *test_), is_led_by_widening(*test_));
+                     coupling::loaded_axis(*test_), tells_pattern(scene, *test_));
   sampler_ = std::make_unique<Sampler>(*test_);
   if (scene.loading.start_strain > 0 && !resumes) start_pressed();
   expected_steps_ = std::max(1.0, test_->program().expected_seconds() / test_->time_step());

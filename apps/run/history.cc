@@ -183,7 +183,13 @@ const std::vector<HistoryColumn> &history_columns() {
          const std::optional<coupling::CellSettings> &cell = s.problem.settings().loading.cell;
          return s.problem.axial_stage() && !(cell && cell->alone) ? 1.0 : 0.0;
        },
-       state}};
+       state},
+      {"loads", "1", &S::loads,
+       [](const Seen &s) { return static_cast<double>(s.problem.program().loads()); }, state, nullptr,
+       S{}.loads},
+      {"setting", "1", &S::setting,
+       [](const Seen &s) { return static_cast<double>(s.problem.program().stage().setting()); }, state,
+       nullptr, S{}.setting}};
   return columns;
 }
 
@@ -227,7 +233,8 @@ void describe(Archive &archive, const std::string &name, std::vector<Sample> &sa
   for (const HistoryColumn &column : history_columns())
     columns.push_back(
         &table.add<double>(column.name, column.unit,
-                           column.form == count ? or_nan(between(0, most_counted)) : any_value(), none));
+                           column.form == count ? or_nan(between(0, most_counted)) : any_value(),
+                           column.before));
   table.resize(samples.size());
   for (std::size_t row = 0; row < samples.size(); ++row)
     for (std::size_t k = 0; k < columns.size(); ++k)

@@ -1,6 +1,7 @@
 // One row of history.csv: what is measured at every sample of a run.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,8 @@ struct Sample {
   double unbalanced_work = 0;        // J, part of `residual`: of platens without inertia
   double cycling = 0;                // 1 from a turn of the platens until its strain has been reached again
   double axial_stage = 1;            // 0 while a cell's pressure rises and stands alone
+  double loads = 1;                  // a coupling::Loads: whether its stage loads the axis on, and by what
+  double setting = 0;                // how often sides have been asked something else
   double stage = 1;                  // of those that the scene writes, from 1
   std::vector<double> more;          // of columns without a member, in their order
 
@@ -65,7 +68,7 @@ constexpr double Sample::*platen_strain(int axis) {
 }
 
 // A column of history.csv, or a number that only checkpoints keep: declared once, in history.cc. A checkpoint
-// that was written before there was a column gives NaN for it.
+// that was written before there was a column gives `before` for it.
 struct Seen;
 struct HistoryColumn {
   enum class Form { number, count, in_checkpoints_alone };
@@ -74,6 +77,7 @@ struct HistoryColumn {
   double (*measure)(const Seen &);
   Form form = Form::number;
   bool (*there)(const coupling::PlatenTest &) = nullptr; // null: in every test
+  double before = std::numeric_limits<double>::quiet_NaN();
 };
 const std::vector<HistoryColumn> &history_columns();
 // Of column k.

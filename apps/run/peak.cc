@@ -20,17 +20,18 @@ std::size_t place_of_largest(const std::vector<CurvePoint> &curve) {
       curve.begin());
 }
 
-bool has_fallen(const std::vector<CurvePoint> &curve, std::size_t largest, bool strain_may_fall) {
+bool has_fallen(const std::vector<CurvePoint> &curve, std::size_t largest) {
   const CurvePoint &top = curve[largest];
-  return std::any_of(
-      curve.begin() + static_cast<std::ptrdiff_t>(largest), curve.end(), [&](const CurvePoint &p) {
-        return p.damaged && p.stress <= fallen_to * top.stress && (strain_may_fall || p.strain >= top.strain);
-      });
+  return std::any_of(curve.begin() + static_cast<std::ptrdiff_t>(largest), curve.end(),
+                     [&](const CurvePoint &p) {
+                       return p.damaged && p.stress <= fallen_to * top.stress &&
+                              (p.by == coupling::Loads::by_widening || p.strain >= top.strain);
+                     });
 }
 
 } // namespace
 
-PeakOfCurve judge_peak(const std::vector<CurvePoint> &curve, bool strain_may_fall) {
+PeakOfCurve judge_peak(const std::vector<CurvePoint> &curve) {
   PeakOfCurve peak;
   if (curve.empty()) return peak;
   const std::size_t largest = place_of_largest(curve);
@@ -44,14 +45,16 @@ PeakOfCurve judge_peak(const std::vector<CurvePoint> &curve, bool strain_may_fal
   for (const CurvePoint &p : curve) {
     if (p.strain > before_last_part * peak.strain_at_end) {
       ++in_last_part;
+      peak.asked = peak.asked || p.by == coupling::Loads::by_stress;
       continue;
     }
     before = std::max(before, p.stress);
   }
   peak.gained = before > 0 ? peak.largest / before - 1 : 1;
-  if (has_fallen(curve, largest, strain_may_fall))
+  if (has_fallen(curve, largest))
     peak.kind = PeakKind::fallen;
-  else if (curve.back().damaged && in_last_part >= fewest_readings && peak.gained < gain_of_a_rise)
+  else if (!peak.asked && curve.back().damaged && in_last_part >= fewest_readings &&
+           peak.gained < gain_of_a_rise)
     peak.kind = PeakKind::plateau;
   return peak;
 }
@@ -59,6 +62,12 @@ PeakOfCurve judge_peak(const std::vector<CurvePoint> &curve, bool strain_may_fal
 std::string words_against(const PeakOfCurve &peak) {
   if (peak.reached()) return "";
   if (!(peak.largest > 0)) return "no peak was reached: the platens bore nothing";
+  if (peak.asked && peak.gained < gain_of_a_rise)
+    return fmt::format(
+        "no peak was reached: by the strain of {:.4g} the stress had not fallen by {:.0f} % of its largest; "
+        "it "
+        "stayed at what was asked",
+        peak.strain_at_end, 100 * (1 - fallen_to));
   return fmt::format(
       "no peak was reached: by the strain of {:.4g} the stress had not fallen by {:.0f} % of its largest, "
       "and "

@@ -44,13 +44,18 @@ private:
   std::string text_;
 };
 
-// Of a test that ended before its peak, or on a plateau.
+// Of a test that ended before its peak, or on a plateau, or that bore more at another moment than at its
+// peak.
 void report_peak(Report &report, const Results &results) {
   const PeakOfCurve peak = results.peak();
-  if (!(peak.largest > 0)) return;
-  if (peak.kind == PeakKind::none)
-    report.line("largest stress, no strength", "{:.2f} MPa at the strain of {:.5f}", results.strength() / 1e6,
-                peak.strain_of_largest);
+  const Largest largest = results.largest_stress();
+  if (!(results.largest_deviator().value > 0)) return;
+  if (!peak.reached())
+    report.line("largest stress, no strength", "{:.2f} MPa at the strain of {:.5f}", largest.value / 1e6,
+                largest.strain);
+  else if (largest.time != results.time_at_peak())
+    report.line("largest stress, not at the peak", "{:.2f} MPa at {:.4g} ms", largest.value / 1e6,
+                1e3 * largest.time);
   if (peak.kind == PeakKind::plateau)
     report.line("the peak is a plateau", "{:.2f} % gained in the last fifth of the strain",
                 100 * peak.gained);
@@ -71,8 +76,11 @@ void report_strength(Report &report, const Scene &scene, const coupling::PlatenT
                 "{:.2f} MPa", results.strength() / 1e6);
   report_peak(report, results);
   if (problem.cell()) {
-    report.figure("deviator_strength_pa", "largest deviator", "{:.2f} MPa",
-                  results.deviator_strength() / 1e6);
+    report.figure("deviator_strength_pa", "deviator at the peak", "{:.2f} MPa at a pressure of {:.2f} MPa",
+                  results.deviator_strength() / 1e6, results.confining_pressure() / 1e6);
+    if (const Largest largest = results.largest_deviator();
+        !results.peak().reached() || largest.time != results.time_at_peak())
+      report.line("largest deviator", "{:.2f} MPa at {:.4g} ms", largest.value / 1e6, 1e3 * largest.time);
     report.figure("bulk_modulus_pa", "bulk modulus", "{:.2f} GPa", results.bulk_modulus() / 1e9);
   }
   std::vector<std::string> sides;

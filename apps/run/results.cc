@@ -42,18 +42,47 @@ std::vector<int> Results::moves_with(const coupling::PlatenTest &problem) const 
   return with;
 }
 
+bool LoadedOn::operator()(const Sample &sample, double strain) {
+  const bool loads = sample.axial_stage != 0 && sample.cycling == 0 && sample.loads != 0;
+  if (!loads) turn_ = last_;
+  if (!loads || strain < turn_) return false;
+  turn_ = -std::numeric_limits<double>::infinity();
+  last_ = strain;
+  return true;
+}
+
+bool Results::counts(const Sample &sample, LoadedOn &loaded_on) const {
+  return loaded_on(sample, sign_ * sample.*platen_strain(axis_));
+}
+
+bool Results::falls_in(const Sample &sample) const {
+  return peak_ > 0 && sample.setting == samples_[peak_row_].setting;
+}
+
+void Results::count_anew() {
+  loaded_on_ = {}, counts_.clear(), peak_row_ = 0;
+  for (std::size_t k = 0; k < samples_.size(); ++k) {
+    counts_.push_back(counts(samples_[k], loaded_on_));
+    if (counts_[k] && (!counts_[peak_row_] || stress(samples_[k]) > stress(samples_[peak_row_])))
+      peak_row_ = k;
+  }
+}
+
 bool Results::falls_with(const Sample &sample) const {
-  return sample.axial_stage != 0 && sample.cycling == 0 && peak_ > 0 &&
-         stress(sample) < pattern_share * peak_ && measured_for_ != peak_;
+  LoadedOn next = loaded_on_;
+  return counts(sample, next) && falls_in(sample) && stress(sample) < pattern_share * peak_ &&
+         measured_for_ != peak_;
 }
 
 bool Results::add(const Sample &sample, const coupling::PlatenTest &problem) {
   const bool falls = falls_with(sample);
   samples_.push_back(sample);
-  if (sample.axial_stage == 0 || sample.cycling != 0) return false;
+  counts_.push_back(counts(sample, loaded_on_));
+  if (!counts_.back()) return false;
   const double now = stress(sample);
   if (now > peak_) {
     peak_ = now;
+    peak_row_ = samples_.size() - 1;
     at_eighty_ = Pattern{};
     if (problem.model.bonds && follows_motion_) state_at_peak_.keep(problem);
     if (problem.model.bonds && axis_ == 2)
@@ -85,33 +114,47 @@ void Results::finish(const coupling::PlatenTest &problem, const dem::EventWindow
 // Platens that begin to move make the stress oscillate a little, and so may a heavy sleeve: no peak before a
 // bond of the axial stage breaks.
 bool Results::fallen_to(double share) const {
-  if (samples_.empty() || samples_.back().cycling != 0 || !(peak_ > 0)) return false;
+  if (samples_.empty() || !counts_.back() || !falls_in(samples_.back())) return false;
   const Sample &now = samples_.back();
   if (!(stress(now) < share * peak_)) return false;
   return now.intact_bonds + now.broken() == 0 || now.broken() > zero().broken();
 }
 
-std::size_t Results::peak_row() const {
-  std::size_t best = 0;
-  while (best + 1 < samples_.size() && samples_[best].axial_stage == 0)
-    ++best;
-  for (std::size_t k = 1; k < samples_.size(); ++k)
-    if (samples_[k].axial_stage != 0 && samples_[k].cycling == 0 &&
-        stress(samples_[k]) > stress(samples_[best]))
-      best = k;
-  return best;
-}
-
 PeakOfCurve Results::peak() const {
-  if (samples_.empty()) return {};
+  if (!(peak_ > 0)) return {};
   const Sample start = zero();
   const auto strain = platen_strain(axis_);
   std::vector<CurvePoint> curve;
-  for (const Sample &s : samples_)
-    if (s.axial_stage != 0 && s.cycling == 0)
+  for (std::size_t k = 0; k < samples_.size(); ++k)
+    if (const Sample &s = samples_[k]; counts_[k] && falls_in(s))
       curve.push_back({sign_ * (s.*strain - start.*strain), stress(s),
-                       s.intact_bonds + s.broken() == 0 || s.broken() > start.broken()});
-  return judge_peak(curve, strain_may_fall_);
+                       s.intact_bonds + s.broken() == 0 || s.broken() > start.broken(),
+                       static_cast<coupling::Loads>(static_cast<int>(s.loads))});
+  return judge_peak(curve);
+}
+
+bool Results::is_ever_loaded_on() const {
+  return std::count(counts_.begin(), counts_.end(), 1) > 0;
+}
+
+bool Results::goes_on_by_command() const {
+  for (std::size_t k = peak_row_ + 1; k < samples_.size(); ++k)
+    if (samples_[k].loads == 0 || samples_[k].setting != samples_[peak_row_].setting) return true;
+  return false;
+}
+
+// NaN where one of them is.
+Largest Results::largest_of(bool axial_alone, double cell) const {
+  const Sample start = samples_.empty() ? Sample{} : zero();
+  const auto strain = platen_strain(axis_);
+  Largest largest;
+  for (const Sample &s : samples_) {
+    if (axial_alone && s.axial_stage == 0) continue;
+    const double now = sign_ * (s.stress(axis_) - cell * s.cell_pressure);
+    if (std::isnan(now)) return {};
+    if (!(now <= largest.value)) largest = {now, s.time, sign_ * (s.*strain - start.*strain)};
+  }
+  return largest;
 }
 
 double Results::stress_at_end() const {
@@ -139,6 +182,7 @@ ModulusState Results::modulus_state() const {
   state.broken = s.broken() - zero().broken();
   const double plastic = s.plastic - zero().plastic;
   if (s.bond > 0 && plastic > 0) state.plastic_share = plastic / s.bond;
+  state.loaded_on = s.loads != 0 && s.setting == zero().setting;
   return state;
 }
 
@@ -166,6 +210,10 @@ double Results::strength() const {
 }
 double Results::deviator_strength() const {
   return peak_ > 0 ? peak_ : not_measured;
+}
+double Results::confining_pressure() const {
+  if (samples_.empty()) return not_measured;
+  return (peak().reached() ? samples_[peak_row()] : samples_.back()).confining_pressure;
 }
 
 const Sample &Results::zero() const {
@@ -302,6 +350,7 @@ void Results::describe(Archive &archive) {
   archive("crack_rose", emission_.rose.area, "m2");
   dem::describe(archive, "crack_pulses", emission_.pulses);
   apps::describe(archive, "samples", samples_);
+  if (archive.reads()) count_anew();
 }
 
 } // namespace platen::apps

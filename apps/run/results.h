@@ -32,6 +32,25 @@ struct ModulusState {
   std::size_t readings = 0;     // of the axial stage until then
   double broken = 0;            // bonds, since the axial stage began
   double plastic_share = 0;     // plastic work over the energy of bonds; 0 without a ledger
+  bool loaded_on = false;       // the platens drove on there, with sides as where the strains begin
+};
+
+// A largest stress of history.csv and when it was; NaN where none was measured.
+struct Largest {
+  double value = not_measured, time = not_measured; // Pa, s
+  double strain = not_measured; // of the platens since the axial stage began, in the sense of the test
+};
+
+// Which samples show what a specimen bears: those in which its stage loads the axis on. After another stage,
+// or a turn of the platens, the strain first has to come back to where it was.
+class LoadedOn {
+public:
+  // The next sample; its strain positive in the sense of the test.
+  bool operator()(const Sample &sample, double strain);
+
+private:
+  double turn_ = -std::numeric_limits<double>::infinity(); // strain that was reached before
+  double last_ = turn_;                                    // of the last sample that counts
 };
 
 // What cracks told while they came.
@@ -49,14 +68,14 @@ public:
   // from the end of the hydrostatic stage on, as laboratories count them. Damage of the ends, cones and what
   // the gauge measures are of a specimen that is loaded along z; along another axis they are not measured.
   // What moves with the platens after the peak is followed where the test tells a pattern.
-  // Where the test is led by how the specimen widens, its strain may fall while it fails.
+  // A peak is the largest deviator of the samples in which the specimen is loaded on, and all that is told of
+  // it is of that sample; a fall shows there too, while the other sides are asked the same.
   explicit Results(bool tension = false, const dem::Soundness &soundness = {}, int axis = 2,
-                   bool tells_pattern = true, bool strain_may_fall = false)
+                   bool tells_pattern = true)
       : sign_(tension ? -1.0 : 1.0),
         soundness_(soundness),
         axis_(axis),
-        follows_motion_(tells_pattern && axis == 2),
-        strain_may_fall_(strain_may_fall) {}
+        follows_motion_(tells_pattern && axis == 2) {}
 
   // Whether add() will measure the pattern with this sample, which needs all of the specimen; else places and
   // broken bonds are enough.
@@ -71,8 +90,14 @@ public:
   // The state at the end, and events of the cracks so far.
   void finish(const coupling::PlatenTest &problem, const dem::EventWindow &window);
 
-  // Did the deviator of the axial stage reach its peak, or only its largest value?
+  // Did the deviator reach its peak while the specimen was loaded on, or only its largest value?
   PeakOfCurve peak() const;
+  bool is_ever_loaded_on() const; // in any sample
+  // Samples after the peak in which it is not, or by other sides: what falls there falls by command.
+  bool goes_on_by_command() const;
+  // In every sample, positive in the sense of the test; the deviator since the axial stage began.
+  Largest largest_stress() const { return largest_of(false, 0); }
+  Largest largest_deviator() const { return largest_of(true, 1); }
   double stress_at_end() const; // Pa, positive in the sense of the test
   ModulusState modulus_state() const;
   std::size_t readings_to_peak() const; // of the axial stage, with that at the peak; 0 without one
@@ -82,8 +107,9 @@ public:
 
   // Of all samples; NaN where the run did not get there.
   int axis() const { return axis_; }
-  double strength() const;          // Pa, positive: largest stress, or that at the largest deviator
-  double deviator_strength() const; // Pa, positive
+  double strength() const;           // Pa, positive: the stress at the peak
+  double deviator_strength() const;  // Pa, positive: there
+  double confining_pressure() const; // Pa: there; without a peak at the end
   // Pressure over volumetric strain (gauge) at the end of the hydrostatic stage; Pa.
   double bulk_modulus() const;
   double consolidation_end() const; // s; NaN of a test that begins with its axial stage
@@ -126,7 +152,11 @@ public:
   void describe(Archive &archive);
 
 private:
-  std::size_t peak_row() const;
+  std::size_t peak_row() const { return peak_row_; }
+  bool counts(const Sample &sample, LoadedOn &loaded_on) const;
+  bool falls_in(const Sample &sample) const; // a fall in it is of the stress at the peak
+  void count_anew();
+  Largest largest_of(bool axial_alone, double cell) const; // less so much of the cell's pressure
   double largest_over_work(double Sample::*value) const;
   // Samples on the ascending branch on both sides of a share of the strength, and the weight of the second.
   struct Crossing {
@@ -154,9 +184,12 @@ private:
   double sign_;
   dem::Soundness soundness_;
   int axis_;
-  bool follows_motion_, strain_may_fall_;
+  bool follows_motion_;
   StateAtPeak state_at_peak_;
   std::vector<Sample> samples_;
+  LoadedOn loaded_on_;
+  std::vector<char> counts_; // of each sample
+  std::size_t peak_row_ = 0;
   Pattern at_eighty_, last_;
   Emission emission_;
   double barrel_ = not_measured, peak_ = 0; // 1, Pa

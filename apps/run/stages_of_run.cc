@@ -23,10 +23,10 @@ void add_stages(Json &to, const Scene &scene, const coupling::PlatenTest &proble
   if (problem.settings().loading.stages.empty()) return;
   Json stages = Json::array();
   const std::vector<Sample> &samples = results.samples();
-  double largest = not_measured;
+  Largest largest;
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const Sample &s = samples[k];
-    largest = largest >= s.stress() ? largest : s.stress();
+    if (!(s.stress() <= largest.value)) largest = {s.stress(), s.time};
     if (k + 1 < samples.size() && samples[k + 1].stage == s.stage) continue;
     Json stage;
     stage["stage"] = static_cast<int>(s.stage);
@@ -38,7 +38,8 @@ void add_stages(Json &to, const Scene &scene, const coupling::PlatenTest &proble
     stage["axial_strain_gauge"] = s.strain_gauge;
     stage["lateral_strain"] = s.lateral_strain;
     stage["axial_stress_pa"] = s.stress();
-    stage["largest_axial_stress_pa"] = largest;
+    stage["largest_axial_stress_pa"] = largest.value;
+    stage["largest_axial_stress_time_s"] = largest.time;
     stage["confining_pressure_pa"] = s.confining_pressure;
     for (const int axis : {0, 1})
       if (!problem.platens_along(axis).places.empty()) {
@@ -47,7 +48,7 @@ void add_stages(Json &to, const Scene &scene, const coupling::PlatenTest &proble
       }
     stage["controls"] = controls_of_stage(problem, static_cast<std::size_t>(s.stage) - 1);
     stages.push_back(stage);
-    largest = not_measured;
+    largest = {};
   }
   to["stages"] = stages;
 }

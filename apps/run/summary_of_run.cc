@@ -36,11 +36,15 @@ void add_pattern(Json &to, const char *prefix, const Pattern &p) {
   to[start + "end_spread"] = p.failure.end_spread;
 }
 
-// Of a pressure on the lateral surface: where it acts, and what the hydrostatic stage says.
+// Of a pressure on the lateral surface: where it acts, and what the hydrostatic stage says. The largest
+// deviator may be another than that at the peak where the pressure changes or a stage holds the platens.
 void add_cell(Json &to, const coupling::PlatenTest &problem, const Results &results) {
   if (!problem.cell()) return;
-  to["confining_pressure_pa"] = problem.confining_pressure();
+  const Largest deviator = results.largest_deviator();
+  to["confining_pressure_pa"] = results.confining_pressure();
   to["deviator_strength_pa"] = results.deviator_strength();
+  to["largest_deviator_pa"] = deviator.value;
+  to["largest_deviator_time_s"] = deviator.time;
   to["bulk_modulus_pa"] = results.bulk_modulus();
   if (problem.settings().loading.cell->path != 0) {
     const PressurePath path = pressure_path(problem, results);
@@ -125,13 +129,17 @@ void add_bar(Json &to, const coupling::PlatenTest &problem, const Results &resul
 // Null where nothing loads the specimen along its axis.
 void add_peak(Json &to, const Results &results) {
   const PeakOfCurve peak = results.peak();
-  const bool loaded = peak.largest > 0;
+  const Largest largest = results.largest_stress();
+  const bool loaded = results.largest_deviator().value > 0;
   to["peak_reached"] = loaded ? Json(peak.reached()) : Json();
   to["peak_is"] = !loaded                          ? Json()
                   : peak.kind == PeakKind::fallen  ? Json("fallen")
                   : peak.kind == PeakKind::plateau ? Json("plateau")
                                                    : Json("not reached");
-  to["largest_stress_pa"] = loaded ? results.strength() : not_measured;
+  to["peak_time_s"] = peak.reached() ? results.time_at_peak() : not_measured;
+  to["fall_time_s"] = results.pattern().time;
+  to["largest_stress_pa"] = largest.value;
+  to["largest_stress_time_s"] = largest.time;
   to["stress_at_end_pa"] = results.stress_at_end();
 }
 

@@ -59,7 +59,17 @@ void judge_strength(Validity &of, const coupling::PlatenTest &problem, const Res
     of.add(of_strength, "the test has no stage that loads the specimen along its axis");
     return;
   }
-  if (const std::string words = words_against(results.peak()); !words.empty()) of.add(of_strength, words);
+  if (!results.is_ever_loaded_on())
+    of.add(of_strength,
+           "no stage drives the loaded axis on, or asks it for more stress, while the other sides "
+           "are asked the same: its largest stress is no strength");
+  else if (const std::string words = words_against(results.peak()); !words.empty()) {
+    of.add(of_strength, words);
+    if (results.goes_on_by_command())
+      of.add(of_strength,
+             "what comes after the largest deviator under loading comes by command: a stage holds, "
+             "unloads, follows a share, lowers a stress or changes the sides");
+  }
   if (problem.settings().loading.start_strain > 0) return; // the way to it is solved for, without readings
   if (const std::size_t n = results.readings_to_peak(); n > 0 && n < fewest_to_peak)
     of.add(of_strength, fmt::format("{} readings before the peak, {} at least: a smaller Output/Every", n,
@@ -142,6 +152,10 @@ void judge_moduli(Validity &of, const coupling::PlatenTest &problem, const Resul
     of.add(of_modulus, fmt::format("{} readings before 40 % of the largest stress, {} at least: a smaller "
                                    "Output/Every",
                                    at.readings, fewest_to_modulus));
+  if (!at.loaded_on)
+    of.add(of_modulus,
+           "at 40 % of the largest stress the specimen was not loaded on, or its sides were asked "
+           "something else than where the strains begin");
   if (results.peak().reached()) return;
   if (at.broken > 0)
     of.add(of_young, fmt::format("no peak was reached, and at 40 % of the largest stress {:.0f} bonds had "

@@ -19,12 +19,18 @@ Curve curve_of(const std::function<double(double)> &stress, double end = 0.01, i
   return curve;
 }
 
-PeakKind kind_of(const Curve &curve, bool strain_may_fall = false) {
-  return judge_peak(curve, strain_may_fall).kind;
+PeakKind kind_of(const Curve &curve) {
+  return judge_peak(curve).kind;
+}
+
+Curve by(coupling::Loads loads, Curve curve) {
+  for (CurvePoint &point : curve)
+    point.by = loads;
+  return curve;
 }
 
 TEST(Peak, a_stress_that_rises_to_the_end_has_none) {
-  const PeakOfCurve peak = judge_peak(curve_of([](double e) { return 20e9 * e; }), false);
+  const PeakOfCurve peak = judge_peak(curve_of([](double e) { return 20e9 * e; }));
   EXPECT_FALSE(peak.reached());
   EXPECT_DOUBLE_EQ(peak.largest, 2e8);
   EXPECT_DOUBLE_EQ(peak.strain_at_end, 0.01);
@@ -41,19 +47,20 @@ TEST(Peak, a_fall_by_two_percent_is_one_and_by_less_is_none) {
   };
   EXPECT_EQ(kind_of(falls_to(0.979)), PeakKind::fallen);
   EXPECT_EQ(kind_of(falls_to(0.981)), PeakKind::none);
-  EXPECT_EQ(words_against(judge_peak(falls_to(0.979), false)), "");
-  EXPECT_DOUBLE_EQ(judge_peak(falls_to(0.979), false).strain_of_largest, 0.01);
+  EXPECT_EQ(words_against(judge_peak(falls_to(0.979))), "");
+  EXPECT_DOUBLE_EQ(judge_peak(falls_to(0.979)).strain_of_largest, 0.01);
 }
 
 TEST(Peak, what_came_before_the_largest_stress_is_no_fall) {
   EXPECT_EQ(kind_of(curve_of([](double e) { return e < 0.003 ? 5e10 * e : 2e10 * e; })), PeakKind::none);
 }
 
-TEST(Peak, unloading_is_no_fall_but_of_a_test_led_by_how_it_widens) {
+TEST(Peak, a_strain_that_goes_back_is_no_fall_but_while_it_is_led_by_how_it_widens) {
   Curve curve = curve_of([](double e) { return 20e9 * e; });
   curve.push_back({0.0099, 1e8});
   EXPECT_EQ(kind_of(curve), PeakKind::none);
-  EXPECT_EQ(kind_of(curve, true), PeakKind::fallen);
+  EXPECT_EQ(kind_of(by(coupling::Loads::by_stress, curve)), PeakKind::none);
+  EXPECT_EQ(kind_of(by(coupling::Loads::by_widening, curve)), PeakKind::fallen);
 }
 
 TEST(Peak, neither_fall_nor_plateau_counts_before_damage) {
@@ -77,7 +84,7 @@ TEST(Peak, a_plateau_gains_less_than_a_percent_in_the_last_fifth_of_the_strain) 
   };
   EXPECT_EQ(kind_of(gains(0.009)), PeakKind::plateau);
   EXPECT_EQ(kind_of(gains(0.011)), PeakKind::none);
-  EXPECT_NEAR(judge_peak(gains(0.009), false).gained, 0.009, 1e-9);
+  EXPECT_NEAR(judge_peak(gains(0.009)).gained, 0.009, 1e-9);
 }
 
 TEST(Peak, a_plateau_needs_three_readings_in_the_last_fifth) {
@@ -86,9 +93,24 @@ TEST(Peak, a_plateau_needs_three_readings_in_the_last_fifth) {
   EXPECT_EQ(kind_of(curve_of(flat, 0.01, 15)), PeakKind::plateau);
 }
 
+// What holds a stress that is asked has not reached its peak; what falls below it has.
+TEST(Peak, a_stress_that_stays_as_it_is_asked_is_no_plateau) {
+  const Curve flat = curve_of([](double e) { return std::min(1e8, 50e9 * e); });
+  EXPECT_EQ(kind_of(flat), PeakKind::plateau);
+  EXPECT_EQ(kind_of(by(coupling::Loads::by_widening, flat)), PeakKind::plateau);
+  Curve asked = by(coupling::Loads::by_stress, flat);
+  EXPECT_EQ(kind_of(asked), PeakKind::none);
+  const std::string words = words_against(judge_peak(asked));
+  EXPECT_NE(words.find("stayed at what was asked"), std::string::npos) << words;
+  asked.push_back({0.0101, 0.97e8, true, coupling::Loads::by_stress});
+  EXPECT_EQ(kind_of(asked), PeakKind::fallen);
+  Curve rises = by(coupling::Loads::by_stress, curve_of([](double e) { return 20e9 * e; }));
+  EXPECT_NE(words_against(judge_peak(rises)).find("gained 25 %"), std::string::npos);
+}
+
 TEST(Peak, without_stress_there_is_none) {
-  EXPECT_FALSE(judge_peak({}, false).reached());
-  const PeakOfCurve pulled = judge_peak(curve_of([](double e) { return -1e9 * e; }), false);
+  EXPECT_FALSE(judge_peak({}).reached());
+  const PeakOfCurve pulled = judge_peak(curve_of([](double e) { return -1e9 * e; }));
   EXPECT_FALSE(pulled.reached());
   EXPECT_NE(words_against(pulled).find("bore nothing"), std::string::npos);
 }

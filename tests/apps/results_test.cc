@@ -52,6 +52,130 @@ TEST_F(FallenTo, without_bonds_a_fall_is_a_fall) {
   EXPECT_FALSE(results_.fallen_to(0.5));
 }
 
+// What is told of the peak, by what stages ask.
+class Asked : public FallenTo {
+protected:
+  static constexpr auto none = coupling::Loads::none, closure = coupling::Loads::by_closure,
+                        widening = coupling::Loads::by_widening;
+  // At a deviator (MPa) and a strain (1e-3); gives whether the pattern was taken.
+  bool at(double deviator, double strain, coupling::Loads loads, double pressure = 2, double setting = 0) {
+    Sample s;
+    s.time = ++time_;
+    s.cell_pressure = s.confining_pressure = 1e6 * pressure;
+    s.stress_top = s.stress_bottom = 1e6 * (pressure + deviator);
+    s.strain_platen = s.strain_gauge = 1e-3 * strain;
+    s.opening = strain;
+    s.intact_bonds = 100 - time_, s.broken_tension = time_;
+    s.loads = static_cast<double>(loads);
+    s.setting = setting;
+    return results_.add(s, problem_);
+  }
+  double time_ = 0;
+};
+
+TEST_F(Asked, a_stress_that_falls_by_command_has_no_peak) {
+  for (const auto loads : {closure, widening}) {
+    at(0, 0, loads);
+    at(30, 1, loads);
+    EXPECT_FALSE(at(20, 1.1, none));
+    EXPECT_FALSE(results_.fallen_to(0.8));
+    EXPECT_FALSE(results_.peak().reached());
+    EXPECT_TRUE(results_.goes_on_by_command());
+    EXPECT_TRUE(std::isnan(results_.pattern().time));
+    EXPECT_TRUE(at(20, 1.2, loads)) << "it has given way";
+    EXPECT_TRUE(results_.fallen_to(0.8));
+    EXPECT_EQ(results_.peak().kind, PeakKind::fallen);
+    results_ = Results(false);
+  }
+}
+
+// The way back to the strain of the turn shows nothing new, whatever is borne there.
+TEST_F(Asked, what_is_loaded_again_counts_from_where_it_came_down) {
+  at(0, 0, widening);
+  at(30, 1, widening);
+  at(10, 0.6, none);
+  at(24, 0.9, widening);
+  EXPECT_FALSE(results_.peak().reached());
+  EXPECT_FALSE(results_.fallen_to(0.9));
+  at(32, 0.95, widening);
+  EXPECT_NEAR(results_.strength(), 32e6, 1);
+  at(31, 1, widening);
+  EXPECT_NEAR(results_.strength(), 33e6, 1); // 31 and the pressure of 2
+  at(24, 0.9, widening);                     // the platens part: class II
+  EXPECT_TRUE(results_.peak().reached());
+  EXPECT_TRUE(results_.fallen_to(0.8));
+}
+
+TEST_F(Asked, a_fall_at_another_pressure_is_none) {
+  at(0, 0, closure, 12, 1);
+  at(60, 1, closure, 12, 1);
+  EXPECT_FALSE(at(40, 1.5, closure, 2, 2));
+  EXPECT_FALSE(results_.fallen_to(0.8));
+  EXPECT_FALSE(results_.peak().reached());
+  EXPECT_TRUE(results_.goes_on_by_command());
+  EXPECT_TRUE(at(40, 1.5, closure, 12, 1));
+  EXPECT_TRUE(results_.peak().reached());
+}
+
+// Platens hold while the pressure goes up, then down: the largest stress is of one moment, the largest
+// deviator of another, and neither is at the peak.
+TEST_F(Asked, figures_at_the_peak_are_of_one_sample_and_the_largest_of_the_column) {
+  at(0, 0, closure, 2, 1);
+  at(40, 1, closure, 2, 1);
+  at(38, 1.1, closure, 2, 1);
+  at(35, 1.2, none, 12, 2);
+  at(41, 1.2, none, 1, 3);
+  at(20, 1.2, none, 1, 3);
+  EXPECT_TRUE(results_.peak().reached());
+  EXPECT_NEAR(results_.strength(), 42e6, 1);
+  EXPECT_NEAR(results_.deviator_strength(), 40e6, 1);
+  EXPECT_NEAR(results_.confining_pressure(), 2e6, 1);
+  EXPECT_NEAR(results_.strain_at_peak_platen(), 1e-3, 1e-15);
+  EXPECT_EQ(results_.opening_at_peak(), 1);
+  EXPECT_EQ(results_.time_at_peak(), 2);
+  EXPECT_NEAR(results_.largest_stress().value, 47e6, 1);
+  EXPECT_EQ(results_.largest_stress().time, 4);
+  EXPECT_NEAR(results_.largest_stress().strain, 1.2e-3, 1e-15);
+  EXPECT_NEAR(results_.largest_deviator().value, 41e6, 1);
+  EXPECT_EQ(results_.largest_deviator().time, 5);
+}
+
+TEST_F(Asked, without_a_peak_the_pressure_is_that_at_the_end_and_a_hold_is_no_loading) {
+  at(0, 0, none, 2, 1);
+  EXPECT_FALSE(results_.is_ever_loaded_on());
+  at(9, 1, none, 5, 2);
+  EXPECT_FALSE(results_.is_ever_loaded_on());
+  EXPECT_TRUE(std::isnan(results_.strength()));
+  EXPECT_NEAR(results_.largest_stress().value, 14e6, 1);
+  EXPECT_NEAR(results_.confining_pressure(), 5e6, 1);
+  at(11, 2, closure, 5, 2);
+  EXPECT_TRUE(results_.is_ever_loaded_on());
+  EXPECT_NEAR(results_.confining_pressure(), 5e6, 1);
+}
+
+// Between a pressure that rises and another one a ratio of stress and strain is no modulus.
+TEST_F(Asked, moduli_are_of_a_specimen_that_is_loaded_on_with_the_same_sides) {
+  const auto loaded_on = [&](coupling::Loads loads, double setting) {
+    results_ = Results(false);
+    at(0, 0, closure, 2, 1);
+    at(30, 1, loads, 2, setting);
+    at(40, 2, closure, 2, 1);
+    return results_.modulus_state().loaded_on;
+  };
+  EXPECT_TRUE(loaded_on(closure, 1));
+  EXPECT_FALSE(loaded_on(none, 1));
+  EXPECT_FALSE(loaded_on(closure, 2));
+}
+
+// What is not a number is not passed over.
+TEST_F(Asked, a_largest_of_what_is_not_finite_is_none) {
+  at(30, 1, closure);
+  at(std::nan(""), 1, closure);
+  at(20, 2, closure);
+  EXPECT_TRUE(std::isnan(results_.largest_stress().value));
+  EXPECT_TRUE(std::isnan(results_.largest_stress().time));
+}
+
 // A box between six platens, those along x driven.
 coupling::PlatenTestSettings driven_along_x() {
   coupling::PlatenTestSettings s = coupling::elastic_settings(0.5);
