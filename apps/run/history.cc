@@ -226,14 +226,13 @@ std::vector<CsvCell> history_row(const Sample &sample, const PlatenTest *problem
 }
 
 void describe(Archive &archive, const std::string &name, std::vector<Sample> &samples) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   constexpr double most_counted = 9007199254740992; // 2^53: beyond it not every whole number is a double
   Table table;
   std::vector<Column<double> *> columns;
   for (const HistoryColumn &column : history_columns())
     columns.push_back(
         &table.add<double>(column.name, column.unit,
-                           column.form == count ? or_nan(between(0, most_counted)) : any_value(),
+                           column.form == number ? any_value() : or_nan(between(0, most_counted)),
                            column.before));
   table.resize(samples.size());
   for (std::size_t row = 0; row < samples.size(); ++row)
