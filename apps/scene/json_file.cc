@@ -60,6 +60,9 @@ private:
     const std::size_t first = read_to == 0 ? 0 : text_.rfind('\n', read_to - 1) + 1;
     return text_.substr(first, read_to - first);
   }
+  void require_seen(const std::string &entry, const std::string &value) {
+    if (first_unseen(value)) parameters_.require_seen(entry, value, read_of_line(), levels_.back().origin);
+  }
   std::string path(std::size_t levels) const {
     std::string joined;
     for (std::size_t k = 0; k < levels; ++k)
@@ -113,8 +116,7 @@ bool JsonReader::key(std::string &name) {
   Level &level = levels_.back();
   level.origin.line = line();
   level.key = tidy(name);
-  if (const std::string fault = unseen_in(level.key, read_of_line()); !fault.empty())
-    fail(where() + " " + fault);
+  if (first_unseen(level.key)) fail(where() + " " + unseen_in(level.key, read_of_line()));
   const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
   if (std::any_of(level.key.begin(), level.key.end(), control)) {
     level.key = "a key";
@@ -131,11 +133,11 @@ bool JsonReader::scalar(const std::string &value) {
     if (!in_entry_) {
       if (parameters_.is_section(where()))
         fail(where() + " = " + value + " is a section. Allowed: an object.");
-      parameters_.require_seen(where(), value, read_of_line(), levels_.back().origin);
+      require_seen(where(), value);
       parameters_.set(where(), value, levels_.back().origin);
     } else if (levels_.back().key == "value") {
       const std::string entry = path(levels_.size() - 1);
-      parameters_.require_seen(entry, value, read_of_line(), levels_.back().origin);
+      require_seen(entry, value);
       parameters_.set(entry, value, levels_.back().origin);
     }
   });

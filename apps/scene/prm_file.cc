@@ -13,8 +13,8 @@ namespace platen::apps {
 namespace {
 
 constexpr int deepest_include = 16; // more is a file that includes itself
-constexpr int most_includes =
-    500; // each time that a file is read; files that include others twice over double
+// Each time that a file is read: files that include two others each are thousands a few levels down.
+constexpr int most_includes = 500;
 
 struct OpenSection {
   std::string name;
