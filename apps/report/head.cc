@@ -163,13 +163,16 @@ Results results_in(const fs::path &folder) {
   results.folder = folder;
   if (fs::is_regular_file(folder / "summary.json"))
     results.summary = read_summary(folder / "summary.json").summary;
+  results.mean_radius = number_in(results.summary, "mean_radius_m");
   return results;
 }
 
 Results results_of(const Run &run) {
   Results results;
   results.name = run.name, results.folder = run.folder, results.summary = run.summary;
-  if (!run.specimen.empty()) results.mean_radius = mean_radius(read_spheres(run.specimen.front()));
+  results.mean_radius = number_in(run.summary, "mean_radius_m");
+  if (std::isnan(results.mean_radius) && !run.specimen.empty()) // of an earlier version
+    results.mean_radius = mean_radius(read_spheres(run.specimen.front()));
   if (is_glued(run)) {
     results.friction = {"glued"};
     return results;
@@ -238,10 +241,8 @@ TableOfFigures table_of_facts(const std::vector<Results> &all) {
   row("spheres",
       [](const Results &of) { return number_words(number_in(of.summary, "particles"), "{:.0f}"); });
   row("bonds", [](const Results &of) { return number_words(number_in(of.summary, "bonds"), "{:.0f}"); });
-  row("mean radius (mm)", [](const Results &of) {
-    const double told = number_in(of.summary, "mean_radius_m");
-    return number_words(mm_per_m * (std::isnan(told) ? of.mean_radius : told), "{:.4g}");
-  });
+  row("mean radius (mm)",
+      [](const Results &of) { return number_words(mm_per_m * of.mean_radius, "{:.4g}"); });
   row("seed", [](const Results &of) { return entry_of(of, "Scene/Seed"); });
   row("friction of the platens", [](const Results &of) {
     return of.friction.empty() ? "-" : fmt::format("{}", fmt::join(of.friction, "; "));
