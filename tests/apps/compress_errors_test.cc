@@ -391,8 +391,8 @@ TEST_F(Errors, platens_that_cannot_be_meshed_are_refused_by_key_or_file) {
     arguments.insert(arguments.end(), {"--dry-run", "-o", "dry"});
     const Outcome outcome = run_compress(arguments, folder_);
     EXPECT_EQ(outcome.status, 0) << outcome.error;
-    EXPECT_TRUE(contains(outcome.out, entries.size() == 2 ? "top 30.0 mm x 30.0 mm, facing 1.00"
-                                                          : "top 12.0 mm x 12.0 mm, facing 0.46"))
+    EXPECT_TRUE(contains(outcome.out, entries.size() == 2 ? "top 30 mm x 30 mm, facing 1.00"
+                                                          : "top 12 mm x 12 mm, facing 0.46"))
         << outcome.out;
   }
   put(folder_ / "bad.msh", "$Mess\n");

@@ -125,7 +125,8 @@ TEST(ReportOther, a_study_of_one_case_says_that_there_is_no_curve) {
 
 TEST(ReportOther, one_packing_has_no_scatter_and_several_have_bars) {
   EXPECT_EQ(words_of_scatter(1), "; one packing: no scatter known");
-  EXPECT_EQ(words_of_scatter(5), "; bars: standard deviation over the packings");
+  EXPECT_EQ(words_of_scatter(5),
+            "; bars: standard deviation over the packings, of fewer than five their range");
 }
 
 // Two spheres of radius 1 in a box 2 x 2 x 4, one on the other: each half holds one.
