@@ -48,7 +48,7 @@ private:
 // peak.
 void report_peak(Report &report, const Results &results) {
   const PeakOfCurve peak = results.peak();
-  const Largest largest = results.largest_stress();
+  const LargestReading largest = results.largest_stress();
   if (!(results.largest_deviator().value > 0)) return;
   if (!peak.reached())
     report.line("largest stress, no strength", "{:.2f} MPa at the strain of {:.5f}", largest.value / 1e6,
@@ -78,7 +78,7 @@ void report_strength(Report &report, const Scene &scene, const coupling::PlatenT
   if (problem.cell()) {
     report.figure("deviator_strength_pa", "deviator at the peak", "{:.2f} MPa at a pressure of {:.2f} MPa",
                   results.deviator_strength() / 1e6, results.confining_pressure() / 1e6);
-    if (const Largest largest = results.largest_deviator();
+    if (const LargestReading largest = results.largest_deviator();
         !results.peak().reached() || largest.time != results.time_at_peak())
       report.line("largest deviator", "{:.2f} MPa at {:.4g} ms", largest.value / 1e6, 1e3 * largest.time);
     report.figure("bulk_modulus_pa", "bulk modulus", "{:.2f} GPa", results.bulk_modulus() / 1e9);

@@ -144,10 +144,10 @@ bool Results::goes_on_by_command() const {
 }
 
 // NaN where one of them is.
-Largest Results::largest_of(bool axial_alone, double cell) const {
+LargestReading Results::largest_of(bool axial_alone, double cell) const {
   const Sample start = samples_.empty() ? Sample{} : zero();
   const auto strain = platen_strain(axis_);
-  Largest largest;
+  LargestReading largest;
   for (const Sample &s : samples_) {
     if (axial_alone && s.axial_stage == 0) continue;
     const double now = sign_ * (s.stress(axis_) - cell * s.cell_pressure);

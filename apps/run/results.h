@@ -36,7 +36,7 @@ struct ModulusState {
 };
 
 // A largest stress of history.csv and when it was; NaN where none was measured.
-struct Largest {
+struct LargestReading {
   double value = not_measured, time = not_measured; // Pa, s
   double strain = not_measured; // of the platens since the axial stage began, in the sense of the test
 };
@@ -96,8 +96,8 @@ public:
   // Samples after the peak in which it is not, or by other sides: what falls there falls by command.
   bool goes_on_by_command() const;
   // In every sample, positive in the sense of the test; the deviator since the axial stage began.
-  Largest largest_stress() const { return largest_of(false, 0); }
-  Largest largest_deviator() const { return largest_of(true, 1); }
+  LargestReading largest_stress() const { return largest_of(false, 0); }
+  LargestReading largest_deviator() const { return largest_of(true, 1); }
   double stress_at_end() const; // Pa, positive in the sense of the test
   ModulusState modulus_state() const;
   std::size_t readings_to_peak() const; // of the axial stage, with that at the peak; 0 without one
@@ -156,7 +156,7 @@ private:
   bool counts(const Sample &sample, LoadedOn &loaded_on) const;
   bool falls_in(const Sample &sample) const; // a fall in it is of the stress at the peak
   void count_anew();
-  Largest largest_of(bool axial_alone, double cell) const; // less so much of the cell's pressure
+  LargestReading largest_of(bool axial_alone, double cell) const; // less so much of the cell's pressure
   double largest_over_work(double Sample::*value) const;
   // Samples on the ascending branch on both sides of a share of the strength, and the weight of the second.
   struct Crossing {

@@ -23,7 +23,7 @@ void add_stages(Json &to, const Scene &scene, const coupling::PlatenTest &proble
   if (problem.settings().loading.stages.empty()) return;
   Json stages = Json::array();
   const std::vector<Sample> &samples = results.samples();
-  Largest largest;
+  LargestReading largest;
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const Sample &s = samples[k];
     if (!(s.stress() <= largest.value)) largest = {s.stress(), s.time};

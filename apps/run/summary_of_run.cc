@@ -40,7 +40,7 @@ void add_pattern(Json &to, const char *prefix, const Pattern &p) {
 // deviator may be another than that at the peak where the pressure changes or a stage holds the platens.
 void add_cell(Json &to, const coupling::PlatenTest &problem, const Results &results) {
   if (!problem.cell()) return;
-  const Largest deviator = results.largest_deviator();
+  const LargestReading deviator = results.largest_deviator();
   to["confining_pressure_pa"] = results.confining_pressure();
   to["deviator_strength_pa"] = results.deviator_strength();
   to["largest_deviator_pa"] = deviator.value;
@@ -129,7 +129,7 @@ void add_bar(Json &to, const coupling::PlatenTest &problem, const Results &resul
 // Null where nothing loads the specimen along its axis.
 void add_peak(Json &to, const Results &results) {
   const PeakOfCurve peak = results.peak();
-  const Largest largest = results.largest_stress();
+  const LargestReading largest = results.largest_stress();
   const bool loaded = results.largest_deviator().value > 0;
   to["peak_reached"] = loaded ? Json(peak.reached()) : Json();
   to["peak_is"] = !loaded                          ? Json()
