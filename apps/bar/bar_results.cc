@@ -73,7 +73,7 @@ void add_dynamic(Json &s, const BarResults &r, const LoadResult &l) {
   if (!l.oscillation || l.oscillation->stopped) return;
   const Rod nominal = r.oscillating_rod(false), effective = r.oscillating_rod(true);
   const double f = l.oscillation->frequency;
-  s["energy_residual_relative"] = l.oscillation->energy_residual;
+  s["energy_residual_relative"] = l.oscillation->energy_residual.value();
   s["frequency_hz"] = f;
   s["period_s"] = 1 / f;
   s["frequency_by_hand_hz"] = frequency_of(nominal, l.load);
@@ -95,7 +95,7 @@ Json part_of(const BarResults &r, const LoadResult &l) {
 Json impact_part(const BarResults &r) {
   const double by_hand = r.oscillating_rod(false).wave_speed();
   Json s;
-  s["energy_residual_relative"] = r.impact->energy_residual;
+  s["energy_residual_relative"] = r.impact->energy_residual.value();
   s["time_step_s"] = r.time.impact_step;
   s["struck_velocity_m_s"] = r.struck_velocity;
   s["arrival_quarter_s"] = r.impact->quarter_time;

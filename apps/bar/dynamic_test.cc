@@ -76,7 +76,7 @@ private:
   bool give(const TakeSample &take, Motion &result) const {
     const BarSample s = sample();
     const double change = std::abs(s.kinetic + s.energy.total() - initial_);
-    if (initial_ > 0) result.energy_residual = std::max(result.energy_residual, change / initial_);
+    if (initial_ != 0) result.energy_residual.add(change / initial_);
     return take(s);
   }
   BarSample sample() const {

@@ -6,6 +6,7 @@
 
 #include "apps/bar/bar.h"
 #include "apps/bar/static_test.h"
+#include "base/largest.h"
 #include "dem/measure/bond_network.h"
 
 namespace platen::apps {
@@ -43,8 +44,8 @@ struct Clocking {
 };
 
 struct Motion {
-  double energy_residual = 0; // largest change of kinetic and stored energy, over what was there at first
-  long steps = 0;             // made
+  Largest energy_residual; // change of kinetic and stored energy, over what was there at first
+  long steps = 0;          // made
   bool stopped = false;
 };
 struct Oscillation : Motion {

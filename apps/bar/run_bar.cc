@@ -139,8 +139,7 @@ bool BarRun::take(const BarSample &s, BarLoad load) {
 
 void BarRun::finish(const dem::Model &model, const Motion &motion) {
   results_.add(model, motion.steps);
-  if (results_.steps > 0)
-    results_.energy_residual = std::fmax(results_.energy_residual, motion.energy_residual);
+  if (results_.steps > 0) results_.energy_residual.add(motion.energy_residual.value());
 }
 
 void BarRun::test_loads() {

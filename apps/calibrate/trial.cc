@@ -98,6 +98,7 @@ Sample pace_of(const coupling::PlatenTest &problem) {
   s.kinetic = dem::kinetic_energy(model.particles); // a trial keeps no ledger
   s.bond = model.bond_totals().energy;
   s.contact = model.contacts ? model.contacts->energy() : 0;
+  s.intact_bonds = static_cast<double>(model.intact_bonds());
   s.unbalanced = problem.unbalanced_ratio();
   s.platen_speed = problem.platen_speed();
   return s;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/report/report.h"
+#include "base/largest.h"
 
 namespace platen::apps::report {
 namespace {
@@ -131,12 +132,12 @@ TableOfFigures table_of_sides(const Run &run) {
   table.header = {"side", "largest stress (MPa)", "stress at the peak (MPa)", "work of friction (J)"};
   for (const Side side : sides_of(run)) {
     const std::vector<double> &stress = stress_on(run, side);
-    double largest = std::nan("");
+    Largest largest;
     for (const double now : stress)
-      largest = std::fmax(largest, now);
+      largest.add(now);
     const std::string work = std::string("friction_work_") + coupling::name_of(side) + "_j";
     table.rows.push_back(
-        {coupling::name_of(side), fmt::format("{:.2f}", largest / pa_per_mpa),
+        {coupling::name_of(side), fmt::format("{:.2f}", largest.value() / pa_per_mpa),
          fmt::format("{:.2f}", stress[run.moments.peak_row] / pa_per_mpa),
          run.history.has(work) ? fmt::format("{:.3g}", run.history.column(work).back()) : "-"});
   }

@@ -11,6 +11,7 @@
 #include "apps/report/letters.h"
 #include "apps/report/report.h"
 #include "apps/report/sides.h"
+#include "base/largest.h"
 
 namespace platen::apps::report {
 namespace {
@@ -210,9 +211,9 @@ TableOfFigures table_of_stages(const Run &run) {
   for (const StageRows &rows : stages_of(run)) {
     const Json entry = entry_of(run, rows.number);
     const bool told = entry.is_object() && entry.contains("ended_by") && entry["ended_by"].is_string();
-    double largest = std::nan("");
+    Largest largest;
     for (std::size_t k = rows.first; k <= rows.last; ++k)
-      largest = std::fmax(largest, stress[k]);
+      largest.add(stress[k]);
     const auto number = [](double value, double unit, int digits) {
       return fmt::format("{:.{}f}", value * unit, digits);
     };
@@ -221,7 +222,7 @@ TableOfFigures table_of_stages(const Run &run) {
                           or_dash(scene_entry(run.folder / "scene.prm", section_of(rows.number) + "Until")),
                           told ? entry["ended_by"].get<std::string>() : "-", number(time[end], ms_per_s, 3),
                           number(strain[end], mm_per_m, 3), number(across[end], mm_per_m, 3),
-                          number(stress[end], 1 / pa_per_mpa, 2), number(largest, 1 / pa_per_mpa, 2)});
+                          number(stress[end], 1 / pa_per_mpa, 2), number(largest.value(), 1 / pa_per_mpa, 2)});
     if (confined) table.rows.back().push_back(number(deviator[end], 1 / pa_per_mpa, 2));
   }
   return table;

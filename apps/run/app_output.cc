@@ -190,7 +190,7 @@ void add_figures(Json &s, const TestFigures &f) {
   s["poisson_ratio"] = f.poisson_ratio;
   s["broken_tension"] = f.broken_tension;
   s["broken_shear"] = f.broken_shear;
-  s["energy_residual_relative"] = f.energy_residual;
+  s["energy_residual_relative"] = f.energy_residual.value();
   clear(s, {"kinetic_to_internal_max", "end_damage_top", "end_damage_bottom", "worse_end_damage",
             "middle_damage", "end_spread", "barrel_at_peak", "fragments", "cone_top", "cone_bottom",
             "sound_cone_top", "sound_cone_bottom"});

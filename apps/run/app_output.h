@@ -14,6 +14,7 @@
 #include "apps/run/changed_scene.h"
 #include "apps/scene/command_line.h"
 #include "base/clock.h"
+#include "base/largest.h"
 #include "base/parallel.h"
 #include "dem/model.h"
 
@@ -91,7 +92,7 @@ struct TestFigures {
   std::array<double, dem::stage_count> stage_seconds{};
   double youngs_modulus = none, poisson_ratio = none; // Pa, 1
   long broken_tension = 0, broken_shear = 0;
-  double energy_residual = none; // over the energy
+  Largest energy_residual; // over the energy
 
   // What a model has stepped through and broken, and where its seconds went.
   void add(const dem::Model &model, long steps_made);

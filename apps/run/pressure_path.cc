@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/largest.h"
+
 namespace platen::apps {
 
 PressurePath pressure_path(const coupling::PlatenTest &problem, const Results &results) {
@@ -11,6 +13,7 @@ PressurePath pressure_path(const coupling::PlatenTest &problem, const Results &r
   if (!cell || cell->path == 0) return found;
   const std::vector<Sample> &samples = results.samples();
   double strain_found = not_measured;
+  Largest deviation;
   for (const Sample &s : samples) {
     if (s.axial_stage == 0) {
       strain_found = s.strain_platen;
@@ -21,8 +24,8 @@ PressurePath pressure_path(const coupling::PlatenTest &problem, const Results &r
       found.ended_at_strain = s.strain_platen - strain_found;
       return found;
     }
-    found.deviation = std::fmax(found.deviation, std::abs(s.confining_pressure - std::max(0.0, asked)) /
-                                                     std::max(cell->pressure, asked));
+    deviation.add(std::abs(s.confining_pressure - std::max(0.0, asked)) / std::max(cell->pressure, asked));
+    found.deviation = deviation.value();
     if (s.time >= results.time_at_peak()) return found;
   }
   return found;

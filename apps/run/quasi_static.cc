@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/run/at_peak.h"
+#include "base/largest.h"
 
 namespace platen::apps {
 namespace {
@@ -15,8 +16,10 @@ namespace {
 constexpr double most_kinetic = 0.005, most_unbalanced = 0.015;
 constexpr double most_inertial = 1e-3; // dense granular flow is quasi-static below (GDR MiDi 2004)
 
+// NaN of none, and where one of them is NaN.
 double median(std::vector<double> values) {
-  if (values.empty()) return not_measured;
+  const auto is_nan = [](double value) { return std::isnan(value); };
+  if (values.empty() || std::any_of(values.begin(), values.end(), is_nan)) return not_measured;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -36,15 +39,18 @@ double strain_rate(const std::vector<Sample> &rise, std::size_t row, const coupl
 Slowness slowness(const coupling::PlatenTest &problem, const std::vector<Sample> &rise, int axis) {
   Slowness s;
   std::vector<double> unbalanced;
+  Largest kinetic, inertial;
   const double diameter = 2 * problem.facts().mean_radius;
   for (std::size_t k = 0; k < rise.size(); ++k) {
     const Sample &sample = rise[k];
-    s.kinetic = std::fmax(s.kinetic, sample.kinetic / sample.internal());
-    if (!std::isnan(sample.unbalanced)) unbalanced.push_back(sample.unbalanced);
+    kinetic.add(sample.kinetic / sample.internal());
+    if (sample.intact_bonds > 0) unbalanced.push_back(sample.unbalanced); // over the forces of bonds
     const double rate = strain_rate(rise, k, problem, axis), stress = std::abs(sample.stress(axis));
-    if (stress > 0)
-      s.inertial = std::fmax(s.inertial, rate * diameter * std::sqrt(problem.facts().grain_density / stress));
+    if (stress != 0 && (k > 0 || axis == 2)) // its speed is not known at the first
+      inertial.add(rate * diameter * std::sqrt(problem.facts().grain_density / stress));
   }
+  s.kinetic = kinetic.value();
+  s.inertial = inertial.value();
   s.unbalanced = median(unbalanced);
   return s;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/largest.h"
 #include "dem/measure/damage.h"
 
 namespace platen::apps {
@@ -303,10 +304,10 @@ std::size_t Results::whole_balance_from() const {
 double Results::largest_over_work(double Sample::*value) const {
   const std::size_t from = whole_balance_from();
   if (from == 0 || std::isnan(samples_[from].*value)) return not_measured; // no load, or no ledger
-  double largest = 0;
+  Largest largest;
   for (std::size_t k = from; k < samples_.size(); ++k)
-    largest = std::max(largest, std::abs(samples_[k].*value));
-  return largest / samples_[peak_ > 0 ? peak_row() : samples_.size() - 1].boundary;
+    largest.add(std::abs(samples_[k].*value));
+  return largest.value() / samples_[peak_ > 0 ? peak_row() : samples_.size() - 1].boundary;
 }
 
 double Results::energy_residual_relative() const {
@@ -318,10 +319,10 @@ double Results::platen_unbalanced_work_relative() const {
 }
 
 double Results::kinetic_to_internal_max() const {
-  double largest = not_measured; // without a ledger
+  Largest largest; // NaN without a ledger
   for (const Sample &sample : rise())
-    largest = std::fmax(largest, sample.kinetic / sample.internal());
-  return largest;
+    largest.add(sample.kinetic / sample.internal());
+  return largest.value();
 }
 
 std::vector<Sample> Results::rise() const {

@@ -1,6 +1,7 @@
 #include "apps/run/stages_of_run.h"
 
 #include "apps/run/controls.h"
+#include "base/largest.h"
 
 namespace platen::apps {
 namespace {
@@ -23,10 +24,12 @@ void add_stages(Json &to, const Scene &scene, const coupling::PlatenTest &proble
   if (problem.settings().loading.stages.empty()) return;
   Json stages = Json::array();
   const std::vector<Sample> &samples = results.samples();
-  LargestReading largest;
+  Largest largest;
+  double largest_time = not_measured;
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const Sample &s = samples[k];
-    if (!(s.stress() <= largest.value)) largest = {s.stress(), s.time};
+    if (!(s.stress() <= largest.value())) largest_time = s.time;
+    largest.add(s.stress());
     if (k + 1 < samples.size() && samples[k + 1].stage == s.stage) continue;
     Json stage;
     stage["stage"] = static_cast<int>(s.stage);
@@ -38,8 +41,8 @@ void add_stages(Json &to, const Scene &scene, const coupling::PlatenTest &proble
     stage["axial_strain_gauge"] = s.strain_gauge;
     stage["lateral_strain"] = s.lateral_strain;
     stage["axial_stress_pa"] = s.stress();
-    stage["largest_axial_stress_pa"] = largest.value;
-    stage["largest_axial_stress_time_s"] = largest.time;
+    stage["largest_axial_stress_pa"] = largest.value();
+    stage["largest_axial_stress_time_s"] = largest_time;
     stage["confining_pressure_pa"] = s.confining_pressure;
     for (const int axis : {0, 1})
       if (!problem.platens_along(axis).places.empty()) {
