@@ -202,7 +202,8 @@ void PlatenSettings::describe(Visitor &&v, Self &p) {
   v("contact_modulus", p.contact_modulus, "Pa", at_least(0),
     "Hertz: Young modulus of the platens' side, with their Poisson ratio; 0: rigid platens do not give way "
     "there, deformable ones by the material of their face.");
-  v("tangential_ratio", p.tangential_ratio, "1", between(0, 5), "Tangential over normal penalty stiffness.");
+  v("tangential_ratio", p.tangential_ratio, "1", above_up_to(0, 5),
+    "Tangential over normal penalty stiffness.");
   v("damping", p.damping, "1", between(0, 1), "Fraction of critical damping of grains on platens.");
   v("overhang", p.overhang, "1", between(1, 10), "Half-width of the platens over that of the specimen.");
   v("partial_cover", p.partial_cover, Words<bool>{{"whole", false}, {"partial", true}},

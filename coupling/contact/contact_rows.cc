@@ -259,7 +259,8 @@ double ContactLayer::tangential_spring(std::size_t row, const Kinematics &motion
   const double held = 0.5 * norm_squared(spring) / before;
   const Vector3 seen = spring;
   if (now < before) spring *= now / before;
-  result.friction_loss += held - 0.5 * norm_squared(spring) / now + 0.5 * dot(seen - spring, stretch);
+  const double left = now > 0 ? 0.5 * norm_squared(spring) / now : 0;
+  result.friction_loss += held - left + 0.5 * dot(seen - spring, stretch);
   return now;
 }
 

@@ -113,9 +113,11 @@ PLATEN_INLINE void tangential_force(const ContactColumns &c, const ContactStep &
     const Triple<Pack> seen = spring;
     spring = choose<OfLanes>(OfLanes::above(kt, now), scale(Pack(now / kt), spring), spring);
     if constexpr (Effects::ledger) {
-      const LaneMask held = OfLanes::above(kt, zero) & OfLanes::above(dot(spring, spring), zero);
-      const Pack loss = Pack(0.5) * square / kt - Pack(0.5) * dot(spring, spring) / now +
-                        half_step * dot(seen - spring, t.slip_velocity);
+      const LaneMask held = OfLanes::above(kt, zero) & OfLanes::above(square, zero);
+      // At an overlap of exactly 0 nothing is stiff, and the spring has lost all.
+      const Pack left = OfLanes::choose(OfLanes::above(now, zero), dot(spring, spring) / now, zero);
+      const Pack loss =
+          Pack(0.5) * square / kt - Pack(0.5) * left + half_step * dot(seen - spring, t.slip_velocity);
       lost.softened = OfLanes::choose(held, loss, zero);
     }
     kt = now;

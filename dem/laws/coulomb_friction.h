@@ -19,7 +19,8 @@ struct Friction {
   Real dissipated, slip; // J, m
 };
 
-// stretch: m. normal_force: N. tangential_stiffness: N/m. slides_above, slides_at: coefficients.
+// stretch: m. normal_force: N. tangential_stiffness: N/m. slides_above, slides_at: coefficients. Without a
+// stiffness there is no spring, and nothing is lost.
 template <class How, class Real>
 PLATEN_INLINE auto spring_with_friction(const Triple<Real> &before, const Triple<Real> &stretch,
                                         const Real &normal_force, const Real &tangential_stiffness,
@@ -37,9 +38,10 @@ PLATEN_INLINE auto spring_with_friction(const Triple<Real> &before, const Triple
   // 1/2 (T_n + T_n+1) . (T_trial - T_n+1) / k_t, which is nothing where the trial holds.
   const Triple<Real> both = choose<How>(slides, before + slid, before),
                      rest = choose<How>(slides, trial - slid, trial);
-  f.dissipated = How::choose(slides | How::negated(pressed),
+  const auto stiff = How::above(tangential_stiffness, Real(0.0)); // else 0 / 0
+  f.dissipated = How::choose((slides | How::negated(pressed)) & stiff,
                              Real(0.5) * dot(both, rest) / tangential_stiffness, Real(0.0));
-  f.slip = How::choose(slides, (size - limit) / tangential_stiffness, Real(0.0));
+  f.slip = How::choose(slides & stiff, (size - limit) / tangential_stiffness, Real(0.0));
   return f;
 }
 
@@ -67,7 +69,7 @@ struct CoulombFriction {
 
   // stretch: relative tangential displacement over the step (m), in the plane of the contact, with the sign
   // that the force is to have: force = + tangential_stiffness stretch. normal_force: N, >= 0 when pressed; 0
-  // or less lets go of the spring. tangential_stiffness: N/m, positive.
+  // or less lets go of the spring. tangential_stiffness: N/m, at least 0.
   //
   // dissipated = 1/2 (T_n + T_n+1) . (T_trial - T_n+1) / k_t: with the spring's energy T^2 / (2 k_t) it adds
   // up to the work of the mean force over the step, exactly, which is the work that the leapfrog sees.
@@ -87,7 +89,7 @@ struct CoulombFriction {
   // `size` the length of that.
   static Result let_go(State &state, const Vector3 &trial, double tangential_stiffness) {
     Result result;
-    result.dissipated = 0.5 * dot(state.spring, trial) / tangential_stiffness;
+    if (tangential_stiffness > 0) result.dissipated = 0.5 * dot(state.spring, trial) / tangential_stiffness;
     state = State{};
     return result;
   }
@@ -105,6 +107,7 @@ struct CoulombFriction {
     Result result;
     state.sliding = 1;
     state.spring = result.force = (limit / size) * trial;
+    if (!(tangential_stiffness > 0)) return result;
     result.dissipated = 0.5 * dot(before + state.spring, trial - state.spring) / tangential_stiffness;
     result.slip = (size - limit) / tangential_stiffness;
     state.slip += result.slip;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -54,6 +55,25 @@ TEST(coulomb_friction, sliding_keeps_the_direction_of_the_trial) {
   const auto r = friction(state, {0, 1e-4, 0}, 10, k);
   EXPECT_LT(norm(cross(r.force, trial)), 1e-14 * norm(trial) * 4);
   EXPECT_NEAR(norm(r.force), 4, 4e-15);
+}
+
+// A tangential stiffness of 0 that a scene may ask for, or that Hertz' law has at an overlap of exactly 0.
+TEST(coulomb_friction, without_stiffness_nothing_is_held_and_nothing_is_lost) {
+  for (const double normal : {0.0, 10.0})
+    for (const double held : {0.0, 2.0, 8.0}) {
+      CoulombFriction::State state{{held, 0, 0}, 0};
+      const auto r = CoulombFriction{{0.5, 0.5}}(state, {1e-6, 0, 0}, normal, 0);
+      EXPECT_EQ(r.dissipated, 0) << normal << ", " << held;
+      EXPECT_EQ(r.slip, 0) << normal << ", " << held;
+      EXPECT_EQ(r.force.x, normal > 0 ? std::min(held, 5.0) : 0) << normal << ", " << held;
+      CoulombFriction::State slid{{held, 0, 0}, 0}, gone{{held, 0, 0}, 0};
+      EXPECT_EQ(CoulombFriction::let_go(gone, {held, 0, 0}, 0).dissipated, 0);
+      if (held == 0) continue;
+      const auto of = CoulombFriction::slide(slid, {held, 0, 0}, held, 1, 0);
+      EXPECT_EQ(of.dissipated, 0);
+      EXPECT_EQ(of.slip, 0);
+      EXPECT_EQ(of.force.x, 1);
+    }
 }
 
 TEST(coulomb_friction, loss_of_the_normal_force_releases_the_spring) {

@@ -361,6 +361,75 @@ TEST(contact, rolling_resistance_stops_a_gear_pair_in_time) {
               before, 1e-2 * before);
 }
 
+// m, a place of a sphere's centre whose square is below that of the distance though its root is not: spheres
+// that touch there overlap by exactly nothing.
+Vector3 at_no_overlap(double distance) {
+  for (int k = 1; k < 100000; ++k) {
+    Vector3 at{0, 1e-7 * k * distance, 0};
+    at.x = std::sqrt(distance * distance - at.y * at.y);
+    for (int ulp = 0; ulp < 3; ++ulp, at.x = std::nextafter(at.x, 0.0)) {
+      const double square = at.x * at.x + at.y * at.y + at.z * at.z;
+      if (square < distance * distance && std::sqrt(square) == distance) return at;
+    }
+  }
+  return {};
+}
+
+// There Hertz' springs are not stiff at all: what the tangential one held is lost, and no more.
+TEST(contact, hertz_at_an_overlap_of_exactly_nothing_loses_what_its_spring_held) {
+  ModelSettings settings = unbonded(NormalContact::hertz, TangentialContact::coulomb, 0);
+  settings.contact->friction = .5;
+  settings.contact->restitution = 1;
+  Model model(nearly_touching(), settings);
+  Particles &p = model.particles;
+  const auto move = [&](const Vector3 &to, const Vector3 &by) {
+    for (std::size_t i = 0; i < 2; ++i)
+      p.force[i] = (*p.torque)[i] = p.velocity[i] = (*p.angular_velocity)[i] = Vector3{};
+    p.position[0] = Vector3{}, p.position[1] = to;
+    p.velocity[1] = by;
+    model.begin_step(1);
+    model.compute_forces(1);
+  };
+  const double press = 5e-6, rest = p.radius[0] + p.radius[1];
+  move({rest - press, 0, 0}, {});
+  move({rest - press, 0, 0}, {0, 1e-7, 0});
+  ASSERT_EQ(model.contacts->table.size(), 1u);
+  ASSERT_GT((*model.contacts->spring)[0].y, 0);
+  ASSERT_EQ(static_cast<double>(model.contacts->friction_work), 0);
+  const double held =
+      norm_squared((*model.contacts->spring)[0]) / (2 * (*model.contacts->tangential_stiffness)[0]);
+  const Vector3 there = at_no_overlap(model.contacts->rest_distance[0]);
+  ASSERT_GT(there.x, 0);
+  move(there, {});
+  ASSERT_EQ(model.contacts->touching[0], 1);
+  ASSERT_EQ(model.contacts->overlap[0], 0);
+  EXPECT_NEAR(model.contacts->friction_work, held, 1e-9 * held);
+  EXPECT_EQ(model.contacts->energy(), 0);
+  move({rest + press, 0, 0}, {});
+  EXPECT_NEAR(model.contacts->friction_work, held, 1e-9 * held);
+}
+
+// What slides and rolls without a tangential stiffness, pressed, let go by its dashpot, and pressed again.
+TEST(contact, without_a_tangential_stiffness_nothing_is_lost_to_friction) {
+  for (const TangentialContact tangential :
+       {TangentialContact::coulomb, TangentialContact::coulomb_with_rolling}) {
+    ModelSettings settings = unbonded(NormalContact::linear, tangential, 1e7);
+    settings.contact->friction = .5;
+    settings.contact->rolling_friction = .1;
+    settings.contact->tangential_ratio = 0;
+    settings.contact->damping = .3;
+    Model model(nearly_touching(), settings);
+    Particles &p = model.particles;
+    p.velocity[1] = {-.2, .1, 0};
+    (*p.angular_velocity)[0].z = 50;
+    for (int n = 0; n < 3000; ++n)
+      step(model, 2e-7);
+    EXPECT_GT(p.velocity[1].x - p.velocity[0].x, 0); // they have parted
+    EXPECT_EQ(static_cast<double>(model.contacts->friction_work), 0);
+    EXPECT_TRUE(std::isfinite(model.energy().residual()));
+  }
+}
+
 TEST(contact, gear_pairs_roll_freely_without_rolling_resistance) {
   ModelSettings settings = unbonded(NormalContact::linear, TangentialContact::coulomb, 1e7);
   settings.contact->friction = .5;
