@@ -1,5 +1,7 @@
 #include "apps/calibrate/trial.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -152,6 +154,9 @@ std::vector<Reading> load(coupling::PlatenTest &problem, const Scene &scene, con
     all.push_back(read().minus(start));
     paces.push_back(pace_of(problem));
     const Reading &now = all.back();
+    if (!std::isfinite(now.stress + now.strain_platen))
+      throw coupling::NumericsStopped(
+          fmt::format("not finite: stress or strain of the platens at time {:.6g} s", problem.time()));
     if (now.stress > peak) {
       peak = now.stress, result.strain_at_peak = now.strain_platen, fell = false;
       confined = problem.confined_share();

@@ -141,8 +141,8 @@ int CompressionRun::run() {
                scene_.parameters->with_entries(cost_estimate(*test_, expected_steps_)));
     return status_done;
   }
-  begin();
   try {
+    begin();
     loop();
   } catch (const coupling::NumericsStopped &e) {
     give_up();

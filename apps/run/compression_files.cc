@@ -12,6 +12,7 @@
 #include "apps/scene/expect.h"
 #include "apps/scene/surfaces.h"
 #include "base/pi.h"
+#include "base/shortest_text.h"
 #include "dem/measure/stress.h"
 #include "dem/particles.h"
 
@@ -26,6 +27,15 @@ std::vector<CsvCell> crack_row(const dem::Crack &c) {
           c.area,      c.mode == dem::BondState::broken_in_tension ? "tension" : "shear",
           c.energy,    c.particle_a,
           c.particle_b};
+}
+
+void require_finite(const dem::Crack &c) {
+  const auto sum = [](const Vector3 &v) { return v.x + v.y + v.z; };
+  if (!std::isfinite(c.time + c.strain + sum(c.point) + sum(c.normal) + c.area + c.energy))
+    throw coupling::NumericsStopped(fmt::format(
+        "not finite: place, area or energy of the crack between particles {} and {} at time {} s; "
+        "try a smaller `time_step.safety` or `loading.rate`",
+        c.particle_a, c.particle_b, shortest_text(c.time)));
 }
 
 const std::vector<std::string> crack_columns{"time_s",   "axial_strain", "x_m",       "y_m",     "z_m",
@@ -158,6 +168,7 @@ void CompressionRun::keep(const Sample &s) {
 
 void CompressionRun::write_cracks() {
   for (const dem::Crack &c : test_->model.take_cracks()) {
+    require_finite(c);
     cracks_->row(crack_row(c));
     results_.listen(c);
   }
@@ -201,7 +212,7 @@ void CompressionRun::write_bond_stress() const {
   for (const dem::DirectionClass &c :
        dem::bond_stress_by_direction(test_->model.particles, *test_->model.bonds, classes))
     table.row({c.low / degree, c.high / degree, c.bonds, c.pressed, c.mean, c.mean_pressed,
-               c.mean_pressed / axial});
+               axial != 0 ? c.mean_pressed / axial : not_measured});
   table.finish();
 }
 

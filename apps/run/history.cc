@@ -1,10 +1,13 @@
 #include "apps/run/history.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "base/shortest_text.h"
 #include "base/table.h"
 
 namespace platen::apps {
@@ -30,6 +33,10 @@ namespace {
 using coupling::PlatenTest;
 constexpr HistoryColumn::Form number = HistoryColumn::Form::number, count = HistoryColumn::Form::count,
                               state = HistoryColumn::Form::in_checkpoints_alone;
+constexpr HistoryColumn::Missing without_ledger = HistoryColumn::Missing::without_ledger,
+                                 without_spheres = HistoryColumn::Missing::without_spheres,
+                                 without_forces = HistoryColumn::Missing::without_forces,
+                                 without_pressure = HistoryColumn::Missing::without_pressure;
 
 bool in_cell(const PlatenTest &p) {
   return p.cell();
@@ -81,12 +88,19 @@ bool widens(const PlatenTest &p) {
                      [](const auto &stage) { return coupling::needs_circumferential_strain(stage); });
 }
 
+} // namespace
+
 bool is_there(const HistoryColumn &column, const PlatenTest *problem) {
   if (column.there == nullptr) return true;
   return problem != nullptr && column.there(*problem);
 }
 
-} // namespace
+bool may_be(double value, const HistoryColumn &column, const PlatenTest &problem) {
+  using Missing = HistoryColumn::Missing;
+  if (std::isfinite(value) || column.missing == Missing::never) return std::isfinite(value);
+  return std::isnan(value) &&
+         (column.missing != Missing::without_ledger || !problem.model.settings().energy_ledger);
+}
 
 const std::vector<HistoryColumn> &history_columns() {
   using S = Sample;
@@ -96,10 +110,13 @@ const std::vector<HistoryColumn> &history_columns() {
       {"time_s", "s", &S::time, [](const Seen &s) { return s.problem.time(); }},
       {"axial_strain_platen", "1", &S::strain_platen,
        [](const Seen &s) { return s.problem.closure_strain(); }},
-      {"axial_strain_gauge", "1", &S::strain_gauge, [](const Seen &s) { return -s.gauge.axial; }},
-      {"lateral_strain", "1", &S::lateral_strain, [](const Seen &s) { return -s.gauge.lateral(); }},
+      {"axial_strain_gauge", "1", &S::strain_gauge, [](const Seen &s) { return -s.gauge.axial; }, number,
+       nullptr, without_spheres},
+      {"lateral_strain", "1", &S::lateral_strain, [](const Seen &s) { return -s.gauge.lateral(); }, number,
+       nullptr, without_spheres},
       {"volumetric_strain", "1", &S::volumetric_strain,
-       [](const Seen &s) { return -(s.gauge.axial + s.gauge.lateral_x + s.gauge.lateral_y); }},
+       [](const Seen &s) { return -(s.gauge.axial + s.gauge.lateral_x + s.gauge.lateral_y); }, number,
+       nullptr, without_spheres},
       {"axial_stress_top_pa", "Pa", &S::stress_top, [](const Seen &s) { return s.problem.stress_top(); }},
       {"axial_stress_bottom_pa", "Pa", &S::stress_bottom,
        [](const Seen &s) { return s.problem.stress_bottom(); }},
@@ -111,37 +128,49 @@ const std::vector<HistoryColumn> &history_columns() {
        [](const Seen &s) { return s.broken(BondState::broken_in_tension); }, count},
       {"broken_shear", "1", &S::broken_shear,
        [](const Seen &s) { return s.broken(BondState::broken_in_shear); }, count},
-      {"kinetic_energy_j", "J", &S::kinetic, [](const Seen &s) { return s.energy.kinetic; }},
-      {"bond_energy_j", "J", &S::bond, [](const Seen &s) { return s.energy.bonds; }},
-      {"contact_energy_j", "J", &S::contact, [](const Seen &s) { return s.energy.contacts; }},
-      {"body_energy_j", "J", &S::body, [](const Seen &s) { return s.energy.bodies; }},
-      {"damping_work_j", "J", &S::damping, [](const Seen &s) { return s.energy.damping; }},
-      {"friction_work_j", "J", &S::friction, [](const Seen &s) { return s.energy.friction; }},
-      {"fracture_work_j", "J", &S::fracture, [](const Seen &s) { return s.energy.fracture; }},
-      {"boundary_work_j", "J", &S::boundary, [](const Seen &s) { return s.energy.boundary; }},
-      {"energy_residual_j", "J", &S::residual, [](const Seen &s) { return s.energy.residual(); }},
+      {"kinetic_energy_j", "J", &S::kinetic, [](const Seen &s) { return s.energy.kinetic; }, number, nullptr,
+       without_ledger},
+      {"bond_energy_j", "J", &S::bond, [](const Seen &s) { return s.energy.bonds; }, number, nullptr,
+       without_ledger},
+      {"contact_energy_j", "J", &S::contact, [](const Seen &s) { return s.energy.contacts; }, number, nullptr,
+       without_ledger},
+      {"body_energy_j", "J", &S::body, [](const Seen &s) { return s.energy.bodies; }, number, nullptr,
+       without_ledger},
+      {"damping_work_j", "J", &S::damping, [](const Seen &s) { return s.energy.damping; }, number, nullptr,
+       without_ledger},
+      {"friction_work_j", "J", &S::friction, [](const Seen &s) { return s.energy.friction; }, number, nullptr,
+       without_ledger},
+      {"fracture_work_j", "J", &S::fracture, [](const Seen &s) { return s.energy.fracture; }, number, nullptr,
+       without_ledger},
+      {"boundary_work_j", "J", &S::boundary, [](const Seen &s) { return s.energy.boundary; }, number, nullptr,
+       without_ledger},
+      {"energy_residual_j", "J", &S::residual, [](const Seen &s) { return s.energy.residual(); }, number,
+       nullptr, without_ledger},
       {"unbalanced_force_ratio", "1", &S::unbalanced,
-       [](const Seen &s) { return s.problem.unbalanced_ratio(); }},
+       [](const Seen &s) { return s.problem.unbalanced_ratio(); }, number, nullptr, without_forces},
       {"lateral_strain_extremal", "1", &S::lateral_extremal,
-       [](const Seen &s) { return s.lateral_extremal(); }},
-      {"axial_strain_extremal", "1", &S::axial_extremal, [](const Seen &s) { return s.axial_extremal(); }},
+       [](const Seen &s) { return s.lateral_extremal(); }, number, nullptr, without_spheres},
+      {"axial_strain_extremal", "1", &S::axial_extremal, [](const Seen &s) { return s.axial_extremal(); },
+       number, nullptr, without_spheres},
       {"platen_speed_m_s", "m/s", &S::platen_speed, [](const Seen &s) { return s.problem.platen_speed(); }},
       {"time_step_s", "s", &S::time_step, [](const Seen &s) { return s.problem.time_step(); }},
       {"grain_contacts", "1", &S::touching,
        [](const Seen &s) { return static_cast<double>(s.problem.model.touching_count()); }, count},
-      {"plastic_work_j", "J", &S::plastic, [](const Seen &s) { return s.energy.plastic; }},
+      {"plastic_work_j", "J", &S::plastic, [](const Seen &s) { return s.energy.plastic; }, number, nullptr,
+       without_ledger},
       {"deviator_pa", "Pa", nullptr,
        [](const Seen &s) {
          return 0.5 * (s.problem.stress_top() + s.problem.stress_bottom()) - s.problem.confining_pressure();
        },
        number, in_cell},
       {"confined_area_share", "1", &S::confined_share,
-       [](const Seen &s) { return s.problem.confined_share(); }, number, in_cell},
+       [](const Seen &s) { return s.problem.confined_share(); }, number, in_cell, without_pressure},
       {"volumetric_strain_sleeve", "1", &S::sleeve_volumetric_strain,
        [](const Seen &s) { return s.problem.sleeve_volumetric_strain(); }, number, in_sleeve},
       {"sleeve_deviator_pa", "Pa", &S::sleeve_deviator,
        [](const Seen &s) { return s.problem.sleeve_deviator(); }, number, in_sleeve},
-      {"opening_m", "m", &S::opening, [](const Seen &s) { return s.opening(); }, number, of_disc},
+      {"opening_m", "m", &S::opening, [](const Seen &s) { return s.opening(); }, number, of_disc,
+       without_spheres},
       {"deflection_m", "m", &S::deflection, [](const Seen &s) { return s.deflection(); }, number, bent},
       {"midspan_moment_n_m", "N m", &S::midspan_moment,
        [](const Seen &s) { return s.problem.midspan_moment(); }, number, bent},
@@ -173,7 +202,7 @@ const std::vector<HistoryColumn> &history_columns() {
        [](const Seen &s) { return 1.0 + static_cast<double>(s.problem.program().stage_number()); }, count,
        staged},
       {"circumferential_strain", "1", nullptr,
-       [](const Seen &s) { return s.problem.circumferential_strain(); }, number, widens},
+       [](const Seen &s) { return s.problem.circumferential_strain(); }, number, widens, without_spheres},
       {"cell_pressure_pa", "Pa", &S::cell_pressure,
        [](const Seen &s) { return s.problem.confining_pressure(); }, state, in_cell},
       {"cycling", "1", &S::cycling, [](const Seen &s) { return s.problem.cycling() ? 1.0 : 0.0; }, state},
@@ -186,10 +215,10 @@ const std::vector<HistoryColumn> &history_columns() {
        state},
       {"loads", "1", &S::loads,
        [](const Seen &s) { return static_cast<double>(s.problem.program().loads()); }, state, nullptr,
-       S{}.loads},
+       HistoryColumn::Missing::never, S{}.loads},
       {"setting", "1", &S::setting,
        [](const Seen &s) { return static_cast<double>(s.problem.program().stage().setting()); }, state,
-       nullptr, S{}.setting}};
+       nullptr, HistoryColumn::Missing::never, S{}.setting}};
   return columns;
 }
 
@@ -217,7 +246,7 @@ std::vector<CsvCell> history_row(const Sample &sample, const PlatenTest *problem
     const HistoryColumn &column = history_columns()[k];
     if (column.form == state || !is_there(column, problem)) continue;
     const double value = value_of(s, k);
-    if (column.form == count && !std::isnan(value)) // which an older checkpoint lacks
+    if (column.form == count && std::isfinite(value)) // which an older checkpoint lacks
       row.emplace_back(static_cast<long long>(value));
     else
       row.emplace_back(value);
@@ -263,8 +292,16 @@ Sampler::Sampler(const PlatenTest &problem)
 Sample Sampler::operator()(const PlatenTest &problem) const {
   const Seen seen(*this, problem);
   Sample sample;
-  for (std::size_t k = 0; k < history_columns().size(); ++k)
-    if (is_there(history_columns()[k], &problem)) value_of(sample, k) = history_columns()[k].measure(seen);
+  for (std::size_t k = 0; k < history_columns().size(); ++k) {
+    const HistoryColumn &column = history_columns()[k];
+    if (!is_there(column, &problem)) continue;
+    const double value = value_of(sample, k) = column.measure(seen);
+    if (!may_be(value, column, problem))
+      throw coupling::NumericsStopped(
+          fmt::format("not finite: {} of history.csv is {} at step {}, time {} s; try a smaller "
+                      "`time_step.safety` or `loading.rate`",
+                      column.name, value, problem.steps(), shortest_text(problem.time())));
+  }
   return sample;
 }
 

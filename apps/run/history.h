@@ -72,16 +72,28 @@ constexpr double Sample::*platen_strain(int axis) {
 struct Seen;
 struct HistoryColumn {
   enum class Form { number, count, in_checkpoints_alone };
+  // Where a test that has the column does not measure it, so that NaN is no fault.
+  enum class Missing {
+    never,
+    without_ledger,  // of energies
+    without_spheres, // in all rows, where a specimen has none in the place that it is measured in
+    without_forces,  // in rows where no bond bears a force
+    without_pressure // in rows where a sleeve has no pressure
+  };
   const char *name, *unit;
   double Sample::*member; // null: kept in `more`
   double (*measure)(const Seen &);
   Form form = Form::number;
   bool (*there)(const coupling::PlatenTest &) = nullptr; // null: in every test
+  Missing missing = Missing::never;
   double before = std::numeric_limits<double>::quiet_NaN();
 };
 const std::vector<HistoryColumn> &history_columns();
 // Of column k.
 double &value_of(Sample &sample, std::size_t k);
+// Whether a test has the column, null: any test; and whether a number of it is one, or is missing as it may.
+bool is_there(const HistoryColumn &column, const coupling::PlatenTest *problem);
+bool may_be(double value, const HistoryColumn &column, const coupling::PlatenTest &problem);
 
 // Of one test; a null problem: those of every test.
 std::vector<std::string> history_names(const coupling::PlatenTest *problem);
@@ -93,6 +105,8 @@ class Sampler {
 public:
   // Throws coupling::BadSetup where a bar has too few spheres for its deflection to be measured.
   explicit Sampler(const coupling::PlatenTest &problem);
+  // Throws coupling::NumericsStopped, naming the column and the time, where a number is not finite that the
+  // test measures.
   Sample operator()(const coupling::PlatenTest &problem) const;
 
 private:
