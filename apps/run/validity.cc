@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "apps/run/at_peak.h"
 #include "apps/run/controls.h"
@@ -113,6 +114,91 @@ void judge_controls(Validity &of, const coupling::PlatenTest &problem, const Res
     of.add(of_strength,
            fmt::format("the pressure was {:.1f} % off its path before the peak, {:.0f} % at most", 100 * off,
                        100 * most_off_path));
+}
+
+// Figures that rest on single columns, or none.
+const std::vector<std::pair<std::string, Figures>> of_column{
+    {"axial_strain_gauge",
+     {"youngs_modulus_gauge_pa", "poisson_ratio", "strain_at_peak_gauge", "constrained_modulus_pa"}},
+    {"lateral_strain", {"poisson_ratio"}},
+    {"volumetric_strain", of_cell},
+    {"lateral_strain_extremal", {"poisson_ratio_extremal"}},
+    {"axial_strain_extremal", {"poisson_ratio_extremal"}},
+    {"unbalanced_force_ratio", {"unbalanced_force_median", "quasi_static", "signs_of_haste"}},
+    {"platen_speed_m_s", {"inertial_number_max", "quasi_static", "signs_of_haste"}},
+    {"opening_m", {"opening_at_peak_m"}},
+    {"deflection_m", {"deflection_at_peak_m", "flexural_modulus_pa"}},
+    {"midspan_moment_n_m", {"moment_over_nominal"}},
+    {"platen_unbalanced_work_j", {"platen_unbalanced_work_relative"}},
+    {"time_step_s", {}},
+    {"grain_contacts", {}},
+    {"volumetric_strain_sleeve", {}},
+    {"sleeve_deviator_pa", {}},
+    {"stage", {}}};
+// On all others every figure that is read off the history: its peak, from which the rest is counted, would be
+// another, or its energy balance is not known.
+const Figures of_history{"peak_reached",
+                         "peak_is",
+                         "peak_time_s",
+                         "fall_time_s",
+                         "largest_stress_pa",
+                         "largest_stress_time_s",
+                         "largest_deviator_pa",
+                         "largest_deviator_time_s",
+                         "stress_at_end_pa",
+                         "consolidation_end_time_s",
+                         "moduli_at_stress_pa",
+                         "pressure_path_deviation",
+                         "pressure_path_ended_at_strain",
+                         "platen_unbalanced_work_relative",
+                         "energy_residual_relative",
+                         "kinetic_to_internal_max",
+                         "wave_crossings_to_peak",
+                         "swings_to_peak",
+                         "unbalanced_force_median",
+                         "inertial_number_max",
+                         "quasi_static",
+                         "signs_of_haste"};
+
+// s, of the first sample with a number in that column that is not finite though the test measures it. A
+// column without spheres is missing in all samples; bonds bear forces from a tenth of the peak on.
+std::optional<double> first_fault(std::size_t column, const coupling::PlatenTest &problem,
+                                  const Results &results) {
+  using Missing = HistoryColumn::Missing;
+  const HistoryColumn &of = history_columns()[column];
+  const std::vector<Sample> samples =
+      of.missing == Missing::without_forces ? results.rise() : results.samples();
+  std::optional<double> first;
+  std::size_t missing = 0;
+  for (Sample s : samples) {
+    const double value = value_of(s, column);
+    const bool bears = of.missing == Missing::without_forces && s.intact_bonds > 0;
+    const bool may = may_be(value, of, problem) && !(bears && std::isnan(value));
+    missing += may && !std::isfinite(value);
+    const bool lacks = of.missing == Missing::without_spheres && !std::isfinite(value);
+    if ((!may || lacks) && !first) first = s.time;
+  }
+  return of.missing == Missing::without_spheres && missing == samples.size() ? std::nullopt : first;
+}
+
+// What passes over a number that is not finite tells a figure that nobody has measured.
+void judge_numbers(Validity &of, const coupling::PlatenTest &problem, const Results &results) {
+  for (std::size_t k = 0; k < history_columns().size(); ++k) {
+    const HistoryColumn &column = history_columns()[k];
+    if (column.member == nullptr || !is_there(column, &problem)) continue; // no figure rests on the former
+    const std::optional<double> since = first_fault(k, problem, results);
+    if (!since) continue;
+    const std::string reason = fmt::format(
+        "the history has a number that is not finite in {} at the time {:.6g} s", column.name, *since);
+    const auto found = std::find_if(of_column.begin(), of_column.end(),
+                                    [&](const auto &one) { return one.first == column.name; });
+    if (found != of_column.end()) {
+      of.add(found->second, reason);
+      continue;
+    }
+    for (const Figures *all : {&of_strength, &of_modulus, &of_damage, &of_cell, &of_history})
+      of.add(*all, reason);
+  }
 }
 
 // What a test says nothing of.
@@ -304,6 +390,7 @@ void Validity::complete(Json &summary) const {
 
 Validity judge(const Scene &scene, const coupling::PlatenTest &problem, const Results &results) {
   Validity of;
+  judge_numbers(of, problem, results);
   judge_kind_of_test(of, problem, results);
   judge_calibration(of, scene, problem);
   judge_strength(of, problem, results);
