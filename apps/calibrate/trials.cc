@@ -138,7 +138,7 @@ void Trials::read() {
     const std::vector<std::string> cells = cells_of(line);
     std::vector<double> values;
     for (std::size_t k = results_at; k < std::min(curve_at, cells.size()); ++k)
-      if (const auto value = number_of(cells[k])) values.push_back(*value);
+      if (const auto value = cells[k].empty() ? not_given : number_of(cells[k])) values.push_back(*value);
     if (cells.size() != columns().size() || values.size() != curve_at - results_at ||
         cells.back() != sum_of_row(line)) {
       log_.warning("{}:{}: has been changed since it was written: its trial is made again", path.string(),

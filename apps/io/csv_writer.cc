@@ -76,10 +76,7 @@ Sha256 sum_of_begin(const std::filesystem::path &path, std::uint64_t length) {
 
 void CsvCell::append_to(std::string &line) const {
   if (const double *number = std::get_if<double>(&value_)) {
-    if (std::isnan(*number))
-      line += "nan"; // whatever its sign
-    else
-      fmt::format_to(std::back_inserter(line), "{}", *number);
+    if (!std::isnan(*number)) fmt::format_to(std::back_inserter(line), "{}", *number);
   } else if (const long long *count = std::get_if<long long>(&value_)) {
     fmt::format_to(std::back_inserter(line), "{}", *count);
   } else {

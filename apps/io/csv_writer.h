@@ -17,7 +17,7 @@
 namespace platen::apps {
 
 // One cell: a number, or a word (std::string, literal). The shortest text that reads back to the same double
-// is written, without regard to the locale; what was not measured is NaN, written `nan`.
+// is written, without regard to the locale; what was not measured is NaN, an empty cell.
 class CsvCell {
 public:
   template <class T, class = std::enable_if_t<std::is_arithmetic_v<T>>>

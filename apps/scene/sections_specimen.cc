@@ -102,7 +102,7 @@ void declare_effects(Parameters &parameters, Scene &scene) {
       .only_if([](const Scene &s) { return s.model.rotation; }, "Effects/Rotation is off");
   section.entry("Gravity", scene.effects.gravity, "9.80665 m/s2 along -z.");
   section.entry("Energy ledger", scene.model.energy_ledger,
-                "Energies and works in history.csv; without it their columns are nan.");
+                "Energies and works in history.csv; without it their columns are empty.");
   section.entry("Crack log", scene.model.crack_log, "cracks.csv; without it broken bonds are counted alone.");
 }
 

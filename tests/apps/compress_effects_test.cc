@@ -56,7 +56,7 @@ TEST_F(EffectsOff, ledger_and_log_only_watch) {
     const bool energy = column.size() > 2 && column.compare(column.size() - 2, 2, "_j") == 0;
     energies += energy;
     for (std::size_t row = 1; row < a.size(); ++row)
-      ASSERT_EQ(b[row][c], energy ? "nan" : a[row][c]) << column << " in row " << row;
+      ASSERT_EQ(b[row][c], energy ? "" : a[row][c]) << column << " in row " << row;
   }
   EXPECT_EQ(energies, 10u);
 }

@@ -85,10 +85,10 @@ TEST_F(Csv, numbers_read_back_to_the_same_bits) {
   }
 }
 
-TEST_F(Csv, writes_nan_for_what_was_not_measured_whatever_its_sign) {
+TEST_F(Csv, leaves_the_cell_of_what_was_not_measured_empty) {
   CsvWriter csv(path_, {"a", "b"});
   csv.row({std::nan(""), -std::nan("")});
-  EXPECT_EQ(content_of(path_), "a,b\nnan,nan\n");
+  EXPECT_EQ(content_of(path_), "a,b\n,\n");
 }
 
 TEST_F(Csv, quotes_words_that_would_break_the_row) {
