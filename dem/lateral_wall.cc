@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace platen::dem {
 namespace {
@@ -88,9 +89,12 @@ std::vector<GroundSpring> LateralWall::ground_springs(const Particles &p) const 
   return springs;
 }
 
-// All is found anew from the positions.
+// The list is found anew from the positions; of older states force and energy are known after the next step.
 void LateralWall::describe(Archive &archive) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   archive.version(1);
+  archive("force", force_, "N", unknown);
+  archive("elastic_energy", elastic_energy_, "J", unknown);
   if (archive.reads()) valid_ = false;
 }
 

@@ -312,6 +312,9 @@ void Model::describe(Archive &archive) {
   platen::describe(archive, "damping_work", works.damping, "J");
   platen::describe(archive, "fracture_work", works.fracture, "J");
   platen::describe(archive, "weight_work", works.weight, "J");
+  double unbalanced = sums_.unbalanced; // N, of the last step; older states do not know it
+  archive("unbalanced", unbalanced, "N", std::numeric_limits<double>::quiet_NaN(), or_nan(at_least(0)));
+  if (archive.reads()) sums_.unbalanced = ExactSum(unbalanced);
   archive("broken_tension", broken_tension, "1", at_least(0));
   archive("broken_shear", broken_shear, "1", at_least(0));
   archive.same_table("particles", particles.table);

@@ -343,6 +343,8 @@ void ContactLayer::describe(Archive &archive) {
   archive("friction_work", friction_work, "J");
   archive("damping_work", damping_work, "J");
   archive("closed", closed);
+  // Older states do not know it: it is told from the next step on.
+  archive("elastic_energy", elastic_energy_, "J", std::numeric_limits<double>::quiet_NaN());
   if (parameters_.hertz) {
     archive("deepest", deepest_, "1", at_least(0));
     archive("counted", counted_, "1", at_least(0));
