@@ -218,14 +218,15 @@ std::size_t rows_of_type(const StateSource &source, const std::string &name, con
 
 BlockRange range_of(const StateSource &source, const std::string &name) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  BlockRange range{none, none};
+  BlockRange range{none, none, 0};
   const std::optional<StoredBlock> block = source.find(name);
   if (!block || block->type.kind == Kind::text) return range;
   const std::vector<char> bytes = bytes_of(source, name, *block);
   for (std::size_t at = 0; at < bytes.size(); at += block->type.bytes) {
     const double value =
         visit_number(block->type, bytes.data() + at, [](auto number) { return static_cast<double>(number); });
-    range = {std::fmin(range.least, value), std::fmax(range.largest, value)};
+    range.not_numbers += std::isnan(value);
+    range.least = std::fmin(range.least, value), range.largest = std::fmax(range.largest, value);
   }
   return range;
 }

@@ -142,10 +142,10 @@ std::vector<T> rows_of(const StateSource &source, const std::string &name, const
 // Throws StateError where two blocks have another number of rows.
 void require_as_many(const StateSource &source, const std::string &name, const std::string &other);
 
-// Least and largest of all numbers of a block; NaN of text and of no rows. Numbers that are NaN are passed
-// over.
+// Least and largest of all numbers of a block, NaN of text and of no rows, and how many others are NaN.
 struct BlockRange {
   double least, largest;
+  std::size_t not_numbers;
 };
 BlockRange range_of(const StateSource &source, const std::string &name);
 

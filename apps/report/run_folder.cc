@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -99,6 +100,19 @@ void fit_anew(Run &run) {
   acoustic->update(json_of_b(dem::b_value(before), "b_before"));
   acoustic->update(json_of_b(dem::b_value(after), "b_after"));
   run.remarks.push_back("b-values are fitted anew to events.csv: the summary is of an earlier version");
+}
+
+// Of stresses that are not finite, as older versions could write them; "" where all are.
+std::string words_of_gaps(const CsvTable &history, int axis) {
+  const std::vector<double> stress = platen_stress(history, axis);
+  const auto finite = [](double value) { return std::isfinite(value); };
+  const auto first = std::find_if_not(stress.begin(), stress.end(), finite);
+  if (first == stress.end()) return "";
+  return fmt::format(
+      "history.csv has {} of {} rows without a stress, the first at the time {:.6g} s: the largest may be "
+      "one of them",
+      std::count_if(stress.begin(), stress.end(), [&](double value) { return !finite(value); }),
+      stress.size(), history.column("time_s")[static_cast<std::size_t>(first - stress.begin())]);
 }
 
 } // namespace
@@ -241,6 +255,8 @@ Run read_run(const fs::path &folder) {
   run.axis = loaded_axis(run.summary);
   run.take_moments();
   run.zero = zero_row(run);
+  if (const std::string gaps = words_of_gaps(run.history, run.axis); !gaps.empty())
+    run.remarks.push_back(gaps);
   if (!run.moments.post_peak_time)
     run.remarks.push_back("the stress did not fall to 0.8 of the peak: crack patterns are shown at the end");
   if (run.summary.is_null())

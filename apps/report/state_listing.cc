@@ -46,9 +46,9 @@ std::string block_line(const CheckpointReader &reader, const std::string &name, 
   if (block.rows == 0) return line;
   const BlockRange range = range_of(reader, name);
   if (std::isnan(range.least)) return line + "  no number";
-  return line + (range.least == range.largest
-                     ? fmt::format("  {:.9g}", range.least)
-                     : fmt::format("  {:.9g} ... {:.9g}", range.least, range.largest));
+  line += range.least == range.largest ? fmt::format("  {:.9g}", range.least)
+                                       : fmt::format("  {:.9g} ... {:.9g}", range.least, range.largest);
+  return line + (range.not_numbers > 0 ? fmt::format(" and {} nan", range.not_numbers) : "");
 }
 
 } // namespace

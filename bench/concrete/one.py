@@ -209,4 +209,7 @@ triaxial()
 friction()
 biaxial()
 recipe()
-print(f"\nLargest energy residual of all runs (1 %): {max(run['energy_residual_relative'] or 0.0 for run in found.values()):.2g}")
+residuals = [run["energy_residual_relative"] for run in found.values()]
+known = [residual for residual in residuals if residual is not None]
+print(f"\nLargest energy residual of all runs (1 %): {max(known):.2g}" if known else "\nNo run has an energy residual",
+      f"; {len(residuals) - len(known)} runs have none" if len(known) < len(residuals) else "", sep="")

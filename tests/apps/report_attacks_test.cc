@@ -47,6 +47,11 @@ TEST(ReportAttacks, short_and_silent_histories_are_drawn_as_they_are) {
     EXPECT_EQ(outcome.status, 0) << rows << outcome.error;
     EXPECT_EQ(outcome.error, "") << rows;
     EXPECT_TRUE(drawn(folder, "stress_strain.png")) << rows;
+    const bool gap = std::string(rows).find("inf") != std::string::npos;
+    EXPECT_EQ(outcome.page.find("history.csv has 1 of 3 rows without a stress, the first at the time 1 s") !=
+                  std::string::npos,
+              gap)
+        << rows;
   }
 }
 

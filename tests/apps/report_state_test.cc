@@ -55,6 +55,16 @@ TEST(report_state, every_block_is_listed_with_rows_kind_unit_and_range) {
   EXPECT_TRUE(holds(text, "\nspecimen/particles/radius 3 float64 m 0.5 ... 2\n")) << text;
 }
 
+TEST(report_state, numbers_that_are_none_are_counted_beside_the_range) {
+  const TestFolder folder;
+  Spheres broken;
+  broken.radius[1] = std::nan("");
+  std::ostringstream out;
+  list_state(keep(folder, "run", broken), out);
+  EXPECT_TRUE(holds(squeezed(out.str()), "\nspecimen/particles/radius 3 float64 m 1 ... 2 and 1 nan\n"))
+      << out.str();
+}
+
 TEST(report_state, the_first_difference_of_two_runs_is_told) {
   const TestFolder folder;
   Spheres other;

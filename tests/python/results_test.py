@@ -50,6 +50,15 @@ class Results(InFolder):
         self.assertEqual(platen.runs(self.folder, "other_*"), {})
         self.assertEqual(platen.runs(self.folder / "none"), {})
 
+    def test_a_row_without_a_stress_leaves_no_largest(self):
+        history = self.path / "history.csv"
+        lines = history.read_text().splitlines()
+        cells = lines[3].split(",")
+        cells[lines[0].split(",").index("axial_stress_top_pa")] = ""
+        history.write_text("\n".join([*lines[:3], ",".join(cells), *lines[4:]]) + "\n")
+        with self.assertRaisesRegex(platen.InputError, "1 of .* rows have no stress"):
+            platen.Run(self.path).peak_time
+
     def test_a_run_without_a_summary_has_not_ended(self):
         self.assertEqual(self.run_.status, "done")
         (self.path / "summary.json").unlink()
