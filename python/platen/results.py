@@ -236,9 +236,10 @@ class Run:
     def peak_time(self):
         """s, of the largest stress by size. InputError where a stress of the history is no finite number, or there is none."""
         stress = self.stress
-        if len(stress) == 0 or not numpy.isfinite(stress).all():
+        missing = int((~numpy.isfinite(stress)).sum())
+        if len(stress) == 0 or missing > 0:
             raise InputError(f"{self.folder / 'history.csv'}: no peak: " +
-                             ("no rows" if len(stress) == 0 else f"row {int(numpy.argmin(numpy.isfinite(stress)))} has no stress"))
+                             ("no rows" if len(stress) == 0 else f"{missing} of {len(stress)} rows have no stress"))
         return float(self.history["time_s"][int(numpy.abs(stress).argmax())])
 
     def __repr__(self):

@@ -281,7 +281,7 @@ class Results(InFolder):
             cells = rows[3].split(",")
             cells[header.split(",").index("axial_stress_top_pa")] = cell
             path.write_text("\n".join([header, *rows[:3], ",".join(cells), *rows[4:]]) + "\n")
-            with self.assertRaisesRegex(platen.InputError, "row 3 has no stress"):
+            with self.assertRaisesRegex(platen.InputError, "1 of .* rows have no stress"):
                 platen.Run(self.run_.folder).peak_time
         path.write_text(header + "\n")
         with self.assertRaisesRegex(platen.InputError, "no rows"):
