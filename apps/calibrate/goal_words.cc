@@ -25,6 +25,10 @@ std::string key_of(TargetKind kind) {
       return "gain_by_friction";
     case TargetKind::cube_over_prism:
       return "cube_over_prism";
+    case TargetKind::slenderness:
+      return "strength_over_slender";
+    case TargetKind::secant_ratio:
+      return "secant_poisson_ratio";
     default:
       return "curve_miss";
   }
@@ -56,6 +60,12 @@ std::string words_of(const Target &t) {
       break;
     case TargetKind::cube_over_prism:
       return "cube over prism";
+    case TargetKind::slenderness:
+      text = "strength over that at h/w 2";
+      break;
+    case TargetKind::secant_ratio:
+      text = "Poisson's ratio to 40 % of the strength";
+      break;
     default:
       text = "miss of the curve";
   }

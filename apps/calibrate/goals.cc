@@ -9,11 +9,12 @@ namespace {
 // What a specimen that comes to no peak is taken for, over what is wanted.
 constexpr double without_peak = 2;
 constexpr double prism_slenderness = 2.4; // Hughes and Bahramian 1967
+constexpr double short_slenderness = 1, slender = 2;
 
 // Pressure, or friction of the platens, may hold a specimen so that it flows on.
 bool may_flow(TargetKind kind) {
   return kind == TargetKind::strength_at_pressure || kind == TargetKind::gain_by_friction ||
-         kind == TargetKind::cube_over_prism;
+         kind == TargetKind::cube_over_prism || kind == TargetKind::slenderness;
 }
 
 SpecimenTest test_of(const Scene &scene, const Target &target) {
@@ -44,7 +45,16 @@ SpecimenTest test_of(const Scene &scene, const Target &target) {
     test.box = scene.specimen.shape != SpecimenShape::box;
     test.slenderness = 1;
   }
+  if (target.kind == TargetKind::slenderness && std::isnan(target.slenderness))
+    test.slenderness = short_slenderness;
   return test;
+}
+
+// Of the specimen that a short one is compared with; as the scene has it where that is what it has.
+double slender_of(const Scene &scene, const SpecimenTest &test) {
+  const SpecimenSection &own = scene.specimen;
+  const bool same = std::abs(own.height - slender * own.width()) < 1e-9 * own.height;
+  return same && !test.box ? not_given : slender;
 }
 
 int order_of(const Goal &goal) { // the longest first
@@ -75,6 +85,10 @@ Goals::Goals(const Scene &scene) : tolerance_(scene.calibrate.tolerance) {
     goal->test = goal->other = place_of(test);
     if (goal->target.kind == TargetKind::gain_by_friction) {
       test.friction = goal->target.other_friction;
+      goal->other = place_of(test);
+    }
+    if (goal->target.kind == TargetKind::slenderness) {
+      test.slenderness = slender_of(scene, test);
       goal->other = place_of(test);
     }
     if (goal->target.kind == TargetKind::cube_over_prism) {
@@ -136,8 +150,11 @@ double Goals::number(const Goal &goal, const TrialResult &r, const TrialResult &
       return r.poisson_ratio;
     case TargetKind::strain_at_peak:
       return r.strain_at_peak;
+    case TargetKind::secant_ratio: // add_moduli took it off the curve
+      return r.poisson_ratio;
     case TargetKind::gain_by_friction:
     case TargetKind::cube_over_prism:
+    case TargetKind::slenderness:
       return r.strength / other.strength;
     case TargetKind::curve:
       return r.curve.empty() ? not_given : root_mean_square(misses_of_curve(*goal.curve, r.curve));
@@ -201,7 +218,7 @@ Eigen::VectorXd Goals::responses(const std::vector<std::size_t> &goals, const Me
       for (const double one : misses_of_curve(*goal.curve, m.curves[k]))
         all.push_back(scale(k) * one);
     else
-      all.push_back(scale(k) * (goal.target.kind == TargetKind::poisson_ratio ? miss : std::log1p(miss)));
+      all.push_back(scale(k) * (goal.is_poisson() ? miss : std::log1p(miss)));
   }
   return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }

@@ -21,6 +21,9 @@ struct Goal {
   std::optional<TargetCurve> curve;
 
   bool wanted() const { return given(target.value) || curve; }
+  bool is_poisson() const { // which may be negative
+    return target.kind == TargetKind::poisson_ratio || target.kind == TargetKind::secant_ratio;
+  }
   bool elastic() const {
     return target.kind == TargetKind::young_modulus || target.kind == TargetKind::poisson_ratio;
   }

@@ -17,12 +17,16 @@ constexpr double confined_by_limits = 0.2, confined_by_contacts = 0.2;
 // Poisson's ratio of beams by the logarithm of their radius (docs/theory.md, the abacus of silica).
 constexpr double poisson_by_radius = -0.2;
 constexpr double modulus_by_radius = 2;
+// Of the ready materials (bench/results/materials.md): the larger compressive over tensile strength, the more
+// bonds have broken by 40 % of it. That ratio goes with shear over tensile strength of the bond as above.
+constexpr double secant_by_ratio = 0.25;
 
 bool is_tension(TargetKind kind) {
   return kind == TargetKind::tension || kind == TargetKind::splitting;
 }
 bool is_ratio(TargetKind kind) {
-  return kind == TargetKind::gain_by_friction || kind == TargetKind::cube_over_prism;
+  return kind == TargetKind::gain_by_friction || kind == TargetKind::cube_over_prism ||
+         kind == TargetKind::slenderness;
 }
 
 // Voigt: E ~ (2 + 3 r)/(4 + r), nu = (1 - r)/(4 + r).
@@ -39,6 +43,10 @@ double elastic_slope(const Target &target, Knob knob, const Choice &at) {
     default:
       return 0;
   }
+}
+
+double secant_slope(const Target &target, Knob knob, const Choice &at) {
+  return knob == Knob::shear_strength ? secant_by_ratio : elastic_slope(target, knob, at);
 }
 
 double strength_slope(const Target &target, Knob knob, double share) {
@@ -100,6 +108,8 @@ Eigen::MatrixXd Space::guess(const Goals &goals, const std::vector<std::size_t> 
       const double scale = goals.scale(k);
       if (goal.elastic())
         put(scale * elastic_slope(goal.target, knob, start_));
+      else if (goal.target.kind == TargetKind::secant_ratio)
+        put(scale * secant_slope(goal.target, knob, start_));
       else if (!goal.curve)
         put(scale * strength_slope(goal.target, knob, share_of(goals, goal.target)));
       else

@@ -15,10 +15,6 @@ constexpr double slender = 2;
 // Of a disc: its seats, as scenes/brazilian_concrete.prm; strips over the diameter.
 constexpr double disc_end_layer = 1, strip_share = 0.1;
 
-double width_of(const SpecimenSection &s) {
-  return s.shape == SpecimenShape::box ? std::min(s.width_x, s.width_y) : 2 * s.radius;
-}
-
 void set_friction(Platens &platens, double friction) {
   platens.both = {friction, friction, {}};
   for (const coupling::Side side : coupling::all_sides) {
@@ -75,7 +71,7 @@ bool same_test(const SpecimenTest &a, const SpecimenTest &b) {
 Scene scene_of_form(const Scene &scene, const SpecimenTest &test) {
   Scene s = scene;
   SpecimenSection &specimen = s.specimen;
-  const double width = width_of(specimen);
+  const double width = specimen.width();
   if (test.kind == TestKind::splitting) {
     specimen.shape = SpecimenShape::disc;
     specimen.height = specimen.radius;
@@ -100,7 +96,7 @@ Scene scene_of_test(const Scene &scene, const SpecimenTest &test) {
   Scene s = scene_of_form(scene, test);
   s.bond.calibrated.figures.clear(); // what is calibrated now
   Loading &loading = s.loading;
-  const double width = width_of(scene.specimen);
+  const double width = scene.specimen.width();
   loading.test = test.kind == TestKind::tension ? LoadingTest::tension : LoadingTest::compression;
   if (test.kind == TestKind::tension) {
     s.platens.glued = true;

@@ -60,6 +60,20 @@ std::vector<std::string> sources_in(const Json &comparisons) {
   return lines;
 }
 
+// Ratios outside what laboratories measured, and those that the bonds are not calibrated for: the first remarks.
+void add_verdicts(const Json &comparisons, StudyResults &results) {
+  for (std::size_t k = 0; k < results.ratios.size(); ++k) {
+    const StudiedRatio &ratio = results.ratios[k];
+    const StudiedCase &of = results.cases[ratio.of];
+    const std::string what = fmt::format("{}, {}, height/width {:.3g}", ratio.effect, of.surface, of.slenderness);
+    if (ratio.outside)
+      results.remarks.push_back(fmt::format("outside the laboratory's range: {}: {}, laboratory {}, {}", what,
+                                            words(ratio.ratio, 3), ratio.laboratory,
+                                            comparisons[k].at("laboratory").at("source").get<std::string>()));
+    if (!ratio.reason.empty()) results.remarks.push_back(what + ": none: " + ratio.reason);
+  }
+}
+
 StudyResults results_of(const Json &study, const fs::path &folder) {
   StudyResults results;
   results.title = title_of_study(folder);
@@ -74,7 +88,9 @@ StudyResults results_of(const Json &study, const fs::path &folder) {
   };
   for (const Json &one : study.at("comparisons"))
     results.ratios.push_back({one.at("effect"), place(one.at("case")), place(one.at("over")),
-                              over_seeds(one, 1), laboratory_words(one.at("laboratory"))});
+                              over_seeds(one, 1), laboratory_words(one.at("laboratory")),
+                              one.value("verdict", "") == "outside", one.value("reason", "")});
+  add_verdicts(study.at("comparisons"), results);
   for (const Json &one : study.at("laboratory"))
     results.laboratory.push_back(
         {one.at("effect"),
@@ -264,7 +280,7 @@ TableOfFigures table_of_study(const StudyResults &study) {
     for (const char *effect : effects) {
       const StudiedRatio *ratio = study.ratio_of(k, effect);
       row.push_back(ratio == nullptr ? "-" : words(ratio->ratio, 3));
-      row.push_back(ratio == nullptr ? "-" : ratio->laboratory);
+      row.push_back(ratio == nullptr ? "-" : ratio->laboratory + (ratio->outside ? ": outside" : ""));
     }
     table.rows.push_back(std::move(row));
   }

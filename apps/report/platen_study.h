@@ -33,6 +33,8 @@ struct StudiedRatio {
   std::size_t of = 0, over = 0; // StudyResults::cases
   Spread ratio;
   std::string laboratory; // "1.42 (1.21 to 1.59)"; "-" where none is known
+  bool outside = false;   // the laboratory's range
+  std::string reason;     // why there is none; "" where there may be one
 };
 
 struct LaboratoryPoint {

@@ -71,7 +71,7 @@ bool add_curves(Figure &figure, const std::string &label, Colour colour, const M
     }
     strengths.push_back({one.*figure.x, one.strength});
     const StudiedRatio *found = figure.study.ratio_of(k, figure.effect);
-    if (found == nullptr) continue;
+    if (found == nullptr || !found->reason.empty()) continue;
     ratios.push_back({one.*figure.x, found->ratio});
     reference = &figure.study.cases[found->over];
   }

@@ -31,9 +31,9 @@ dem::ModelSettings model_settings(const Scene &scene) {
   if (scene.effects.gravity) to.gravity = {0, 0, -standard_gravity};
   to.bond = scene.bond.parameters();
   if (scene.bond.size.reference > 0) {
-    const double radius = scene.specimen.sphere_radius;
-    to.bond = scene.bond.for_radius(radius).parameters();
-    to.bond_layout.modulus *= std::pow(radius / scene.bond.size.reference, scene.bond.size.modulus_exponent);
+    const double share = scene.bond.size.share(scene.specimen);
+    to.bond = scene.bond.for_size(share).parameters();
+    to.bond_layout.modulus *= std::pow(share, scene.bond.size.modulus_exponent);
   }
   to.bond_layout.by_range = scene.bond.bonds_by_range();
   if (scene.bond.bonded() && scene.bond.scattered) {

@@ -11,7 +11,6 @@
 #include "apps/run/failure_summary.h"
 #include "apps/run/pressure_path.h"
 #include "apps/run/summary_of_run.h"
-#include "apps/scene/parameters.h"
 #include "dem/measure/gauge.h"
 
 namespace platen::apps {
@@ -26,6 +25,7 @@ const Figures of_strength{"strength_pa",           "deviator_strength_pa",   "fa
 const Figures of_gauge{"youngs_modulus_gauge_pa", "poisson_ratio"};
 const Figures of_young{"youngs_modulus_gauge_pa", "youngs_modulus_platen_pa", "poisson_ratio",
                        "poisson_ratio_extremal", "flexural_modulus_pa"};
+const Figures of_ratio{"poisson_ratio", "poisson_ratio_extremal"};
 // With those that a wall has instead.
 const Figures of_modulus{"youngs_modulus_gauge_pa",  "youngs_modulus_platen_pa", "poisson_ratio",
                          "poisson_ratio_extremal",   "flexural_modulus_pa",      "constrained_modulus_pa",
@@ -311,16 +311,13 @@ void judge_calibration(Validity &of, const Scene &scene, const coupling::PlatenT
   using Figure = CalibratedFigure;
   const CalibratedFor &bonds = scene.bond.calibrated;
   const auto check = [&](const Figures &figures, Figure needed) {
-    if (bonds.covers(needed)) return;
-    of.add(figures,
-           fmt::format("the bonds are not calibrated for it: Bond/Calibrated figures = {}, without {}",
-                       scene.parameters->at("Bond/Calibrated figures").text,
-                       word_of(calibrated_figures, needed)));
+    if (const std::string reason = bonds.against(needed); !reason.empty()) of.add(figures, reason);
   };
   check(of_modulus, Figure::elastic);
   const LoadingTest test = scene.loading.test;
   const bool tension =
       test == LoadingTest::tension || problem.bent() || problem.shape().kind == dem::ShapeKind::disc;
+  if (!tension) check(of_ratio, Figure::secant_ratio);
   const bool confined = problem.cell() || problem.wall() != nullptr || !further_sides(problem).empty();
   for (const Figures *figures : {&of_strength, &of_damage}) {
     check(*figures, tension ? Figure::tension : Figure::compression);

@@ -36,12 +36,25 @@ void SceneCheck::size_correction() const {
     refuse("Bond/Calibrated radius", "is of specimens between platens. Allowed: 0.");
   if (!given(radius))
     refuse("Bond/Calibrated radius", "needs the mean radius: Specimen/Sphere radius is not set.");
-  const double share = radius / size.reference;
-  if (!(share >= SizeCorrection::least_share && share <= SizeCorrection::most_share))
-    refuse("Bond/Calibrated radius",
-           "is too far from Specimen/Sphere radius = " + parameters_.at("Specimen/Sphere radius").text +
-               fmt::format(". Allowed: {:.2g} to {:.2g} times that.", 1 / SizeCorrection::most_share,
-                           1 / SizeCorrection::least_share));
+  const double width = scene_.specimen.width();
+  if (size.by_width() && !given(width))
+    return refuse("Bond/Calibrated width", "needs the specimen's own: Specimen/Radius is not set.");
+  const double share = size.share(scene_.specimen);
+  if (share >= SizeCorrection::least_share && share <= SizeCorrection::most_share) return;
+  if (size.by_width()) {
+    const double across = size.reference_width / (2 * size.reference);
+    return refuse("Bond/Calibrated width",
+                  fmt::format("with Calibrated radius = {} is for {:.3g} spheres across, and the specimen has "
+                              "{:.3g} across its least width. Allowed: {:.3g} to {:.3g}.",
+                              parameters_.at("Bond/Calibrated radius").text, across,
+                              width / (2 * radius), across / SizeCorrection::most_share,
+                              across / SizeCorrection::least_share));
+  }
+  refuse("Bond/Calibrated radius",
+         "is too far from Specimen/Sphere radius = " + parameters_.at("Specimen/Sphere radius").text +
+             fmt::format(". Allowed: {:.2g} to {:.2g} times that; with Bond/Calibrated width spheres across "
+                         "decide.",
+                         1 / SizeCorrection::most_share, 1 / SizeCorrection::least_share));
 }
 
 void SceneCheck::calibrated_packing() const {

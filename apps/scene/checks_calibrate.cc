@@ -109,7 +109,7 @@ void SceneCheck::target(const Target &target) const {
   const SpecimenSection &specimen = scene_.specimen;
   const bool cylinder = specimen.shape == SpecimenShape::cylinder,
              other = given(target.slenderness) || target.kind == TargetKind::splitting ||
-                     target.kind == TargetKind::cube_over_prism;
+                     target.kind == TargetKind::cube_over_prism || target.kind == TargetKind::slenderness;
   if (!cylinder && specimen.shape != SpecimenShape::box)
     refuse("Specimen/Shape", "is not crushed by platen-calibrate. Allowed: cylinder, box.");
   if (other && specimen.packing == PackingKind::file)
@@ -123,6 +123,9 @@ void SceneCheck::target(const Target &target) const {
   if (target.kind == TargetKind::gain_by_friction && target.friction <= target.other_friction)
     refuse(target.entry.substr(0, target.entry.rfind('/')) + "/Platens",
            "has no more friction than the other platens, " + shortest_text(target.other_friction) + ".");
+  if (target.kind == TargetKind::slenderness && target.slenderness == 2)
+    refuse(target.entry.substr(0, target.entry.rfind('/')) + "/Slenderness",
+           "is that of the specimen that it is compared with. Allowed: any other.");
   if (target.kind == TargetKind::strength_at_pressure && scene_.loading.confinement != ConfinementKind::none)
     refuse("Loading/Confinement",
            "would act on the compressive strength too; " + target.entry + " brings its own. Allowed: none.");

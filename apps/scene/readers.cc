@@ -52,6 +52,7 @@ const std::vector<Reader> &readers() {
                                          {"Bond/Strength scatter", but(bonded, {K::bonds})},
                                          {"Bond/Weibull modulus", but(bonded, {K::bonds})},
                                          {"Bond/Calibrated radius", loading},
+                                         {"Bond/Calibrated width", loading},
                                          {"Bond/Calibrated packing", but(bonded, {K::bonds})},
                                          {"Bond/Calibrated figures", written},
                                          {"Bond/Modulus exponent", loading},

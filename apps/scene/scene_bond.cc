@@ -71,10 +71,10 @@ void Bond::set(const std::string &member, const std::vector<double> &values) {
   std::apply([&](auto &...of) { (find_member<std::vector<double>>(of, member, use), ...); }, laws);
 }
 
-Bond Bond::for_radius(double radius) const {
+Bond Bond::for_size(double share) const {
   Bond to = *this;
   if (!(size.reference > 0)) return to;
-  const double factor = std::pow(radius / size.reference, size.strength_exponent);
+  const double factor = std::pow(share, size.strength_exponent);
   for (const char *strength : {"tensile_strength", "shear_strength"})
     to.set(strength, factor * number(strength)); // of all laws: the same number
   std::vector<double> limits = list("compression_limits");

@@ -13,12 +13,20 @@
 namespace platen::apps {
 
 // Bonds that are calibrated for spheres of one size, for spheres of another: the modulus, and strengths and
-// limits of compression, times powers of the mean radius over that of the calibration.
+// limits of compression, times powers of the mean radius over that of the calibration. Where the width of the
+// specimen of the calibration is given, both radii are shares of the least width: an exactly similar specimen
+// has the same stresses whatever its size, so that the number of spheres across decides, not their metres.
 struct SizeCorrection {
-  double reference = 0; // m, mean radius that they are calibrated for; 0: taken as they are
+  double reference = 0;       // m, mean radius that they are calibrated for; 0: taken as they are
+  double reference_width = 0; // m, least width of the specimen that they are calibrated for; 0: not given
   double modulus_exponent = 0, strength_exponent = 0;
   bool corrects() const { return modulus_exponent != 0 || strength_exponent != 0; }
-  // Of the mean radius over the reference: a little beyond the sizes of bench/results/sizes.md (.51 to 1.26).
+  bool by_width() const { return reference_width > 0; }
+  // Of the mean radius over that of the calibration; NaN where what it takes is not given.
+  double share(const SpecimenSection &of) const {
+    return of.sphere_radius / reference * (by_width() ? reference_width / of.width() : 1);
+  }
+  // What share() may be: a little beyond the sizes of bench/results/sizes.md (.51 to 1.26).
   static constexpr double least_share = 0.5, most_share = 1.5;
 
   static constexpr const char *name = "SizeCorrection";
@@ -27,8 +35,13 @@ struct SizeCorrection {
     v("calibrated_radius", p.reference, "m", at_least(0),
       "Mean radius of the spheres that the bonds are calibrated for; 0: bonds are as they are given for "
       "spheres of any size.");
+    v("calibrated_width", p.reference_width, "m", at_least(0),
+      "Least width of the specimen that the bonds are calibrated in. Where it is given, Calibrated radius over "
+      "it counts, and Specimen/Sphere radius over the specimen's least width: spheres across decide. 0: radii "
+      "are compared as they are.");
     v("modulus_exponent", p.modulus_exponent, "1", between(-1, 1),
-      "Bond/Modulus is multiplied by (Specimen/Sphere radius over Calibrated radius) to this power.");
+      "Bond/Modulus is multiplied by (Specimen/Sphere radius over Calibrated radius) to this power; both "
+      "over their widths where Calibrated width is given.");
     v("strength_exponent", p.strength_exponent, "1", between(-1, 1),
       "The same of both strengths and of Compression limits.");
   }
@@ -60,8 +73,8 @@ public:
   // Of the law chosen, empty where it has none; in all that have it.
   std::vector<double> list(const std::string &member) const;
   void set(const std::string &member, const std::vector<double> &values);
-  // With what stands for spheres of this mean radius (m).
-  Bond for_radius(double radius) const;
+  // With what stands for spheres of this share of the calibrated size (SizeCorrection::share).
+  Bond for_size(double share) const;
 };
 
 } // namespace platen::apps

@@ -56,6 +56,8 @@ enum class TargetKind {
   strength_at_pressure,
   gain_by_friction,
   cube_over_prism,
+  slenderness,  // strength of a short specimen over that of one of 2
+  secant_ratio, // Poisson's ratio to 40 % of the strength
   curve
 };
 inline const Words<TargetKind> target_kinds{{"none", TargetKind::none},
@@ -68,6 +70,8 @@ inline const Words<TargetKind> target_kinds{{"none", TargetKind::none},
                                             {"strength at pressure", TargetKind::strength_at_pressure},
                                             {"gain by friction", TargetKind::gain_by_friction},
                                             {"cube over prism", TargetKind::cube_over_prism},
+                                            {"slenderness", TargetKind::slenderness},
+                                            {"secant ratio", TargetKind::secant_ratio},
                                             {"curve", TargetKind::curve}};
 
 enum class TargetForm { scene, cylinder, box };

@@ -1,6 +1,7 @@
 // Sections of a scene that say what is tested. NaN means "not given" where a member says so.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -38,6 +39,10 @@ struct SpecimenSection {
   bool round() const {
     return !std::isnan(radius);
   } // cross-section: circle of `radius`, else width_x x width_y
+  // m, the least across its axis; NaN where it is not given.
+  double width() const {
+    return shape == SpecimenShape::box ? std::min(width_x, width_y) : 2 * radius;
+  }
 };
 
 struct Effects { // the others stand in dem::ModelSettings, ContactSettings and Bond

@@ -11,6 +11,7 @@ namespace platen::apps {
 namespace {
 
 Range range_of(TargetKind kind) {
+  if (kind == TargetKind::secant_ratio) return between_open(0, 0.5);
   return kind == TargetKind::poisson_ratio ? between_open(-1, 0.5) : above(0);
 }
 
@@ -97,6 +98,8 @@ std::string unit_of(TargetKind kind) {
     case TargetKind::strain_at_peak:
     case TargetKind::gain_by_friction:
     case TargetKind::cube_over_prism:
+    case TargetKind::slenderness:
+    case TargetKind::secant_ratio:
       return "1";
     default:
       return "Pa";

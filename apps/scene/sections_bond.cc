@@ -29,7 +29,8 @@ void declare_calibrated(Section &section, CalibratedFor &calibrated) {
   section.value("Calibrated figures", calibrated.figures, "",
                 "with commas between them, any of " + joined(words), read_calibrated_figures,
                 "What the bonds are calibrated on: strengths, damage and moduli of other tests are null in "
-                "summary.json, with this reason. Empty: nothing is said.");
+                "summary.json, with this reason; without friction or slenderness so are the ratios of studies "
+                "that need it, without secant ratio Poisson's ratio. Empty: nothing is said.");
 }
 
 } // namespace
@@ -83,7 +84,7 @@ void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model)
       .needed_if("Bond/Strength scatter", {"weibull"});
   Members size(section, bond.size);
   size("calibrated_radius");
-  for (const char *member : {"modulus_exponent", "strength_exponent"})
+  for (const char *member : {"calibrated_width", "modulus_exponent", "strength_exponent"})
     size(member).only_if([](const Scene &s) { return s.bond.size.reference > 0; },
                          "Bond/Calibrated radius = 0");
   declare_calibrated(section, bond.calibrated);

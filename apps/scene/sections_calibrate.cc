@@ -30,7 +30,7 @@ void declare_test_of_target(Section &section, TargetSection &to, const std::stri
   section
       .number("Slenderness", to.slenderness, between(0.1, 20),
               "Height over width of the specimen; where not given, the scene's. Cube over prism: of the "
-              "prism, 2.4 where not given.")
+              "prism, 2.4 where not given. Kind = slenderness: of the short specimen, 1 where not given.")
       .unless(kind, {"young modulus", "poisson ratio", "tension", "splitting"})
       .alike(first);
   const char *faces = "dry steel, thesis, teflon, grease, or a coefficient of friction (0 ... 5)";
@@ -66,7 +66,9 @@ void declare_target(Parameters &parameters, TargetSection &to, std::size_t numbe
       .entry("Kind", to.kind, target_kinds,
              "What is wanted. Young modulus and Poisson's ratio of the specimen's middle; tension between "
              "glued ends; splitting of a disc as thick as its radius; gain by friction: strength over that "
-             "between the other platens; curve: stresses of a test of the user's own.")
+             "between the other platens; slenderness: strength over that of a specimen twice as high as wide, "
+             "between the same platens; secant ratio: Poisson's ratio to 40 % of the strength; curve: "
+             "stresses of a test of the user's own.")
       .alike(first);
   section.text("Value", to.value, "The number wanted, with its unit.").alike(first);
   parameters.declared(section.name() + "/Value").is_text = false; // read as a number when its kind is known

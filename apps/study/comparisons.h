@@ -2,6 +2,7 @@
 // laboratory's figures beside them.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,9 @@ struct LaboratoryFigure {
   PlatenEffect effect;
   bool free_ends;         // of ends that are free to spread, else of steel platens
   double slenderness;     // height over width; of the cube where cube over prism
-  double mean, low, high; // 1; equal where one number is given
+  double mean, low, high; // 1; the range of what was measured, else the source says what it is
   std::string source;     // author, year; of figures that were read, no others
+  bool holds(double ratio) const { return low <= ratio && ratio <= high; }
 };
 
 const std::vector<LaboratoryFigure> &laboratory_figures();
@@ -37,12 +39,20 @@ struct Comparison {
   std::size_t of = 0, over = 0; // StudyPlan::cases
   SeedStatistics ratio;
   const LaboratoryFigure *laboratory = nullptr; // null: none is known
+  std::string reason = {};                      // why there is no ratio; "" where the bonds may have one
+  // Whether the mean lies outside what laboratories measured; not where either is missing.
+  bool outside() const { return laboratory != nullptr && ratio.count() > 0 && !laboratory->holds(ratio.mean()); }
 };
 
 // Strengths of all runs of a study of platens (Pa; NaN: failed or never peaked), by case, then by seed. Ends
 // count as free where friction is at most 0.05; of several such platens those with the least friction are
-// what the others are compared with.
-std::vector<Comparison> compare(const StudyPlan &plan, const std::vector<std::vector<double>> &strengths);
+// what the others are compared with. A ratio that the bonds are not calibrated for is none, with the reason.
+std::vector<Comparison> compare(const StudyPlan &plan, const std::vector<std::vector<double>> &strengths,
+                                const CalibratedFor &bonds = {});
+
+// comparisons.csv, a row each. Throws OutputError.
+void write_comparisons(const std::filesystem::path &csv, const StudyPlan &plan,
+                       const std::vector<Comparison> &comparisons);
 
 // For study.json; repeats to the byte.
 void to_json(Json &json, const LaboratoryFigure &figure);

@@ -12,10 +12,6 @@
 namespace platen::apps {
 namespace {
 
-double width(const SpecimenSection &s) {
-  return s.shape == SpecimenShape::box ? std::min(s.width_x, s.width_y) : 2 * s.radius; // m
-}
-
 void check_test(const Scene &scene) {
   if (scene.loading.test != LoadingTest::compression)
     scene.parameters->refuse("Loading/Test", "is no test that platens end. Allowed: compression.");
@@ -83,7 +79,7 @@ std::string surface_name(const StudySurface &of) {
 }
 
 void set_height(const Scene &scene, double slenderness, StudyCase &one) {
-  const double height = to_twelve_digits(slenderness * width(scene.specimen));
+  const double height = to_twelve_digits(slenderness * scene.specimen.width());
   one.name += (one.name.empty() ? "slenderness_" : "_slenderness_") + in_name(slenderness);
   one.overrides.push_back(set("Specimen/Height", height, "m"));
   // Where it would grow with the specimen, the platen stays as thick as the scene's.
@@ -159,7 +155,7 @@ void label_platens(StudyCase &of, const Scene &led_to) {
                         : surface(p.surface).word;
   of.labels = {slides ? p.top.friction_static : not_given,
                slides ? p.top.friction_dynamic : not_given,
-               to_twelve_digits(led_to.specimen.height / width(led_to.specimen)),
+               to_twelve_digits(led_to.specimen.height / led_to.specimen.width()),
                led_to.specimen.height,
                led_to.specimen.sphere_radius,
                led_to.loading.confined() ? led_to.loading.cell->pressure : 0.0};

@@ -72,7 +72,8 @@ void StudyResults::keep(std::size_t k, const RunOutcome &outcome) {
 
 std::string StudyResults::compare(Json &study) const {
   if (of_platens(plan_.kind)) {
-    const std::vector<Comparison> comparisons = tables_.comparisons();
+    const std::vector<Comparison> comparisons = tables_.comparisons(scene_.bond.calibrated);
+    write_comparisons(paths_.comparisons(), plan_, comparisons);
     study["comparisons"] = json_of(plan_, comparisons);
     study["laboratory"] = laboratory_figures();
     return text_of(plan_, comparisons);

@@ -195,11 +195,11 @@ Json StudyTables::cases() const {
   return all;
 }
 
-std::vector<Comparison> StudyTables::comparisons() const {
+std::vector<Comparison> StudyTables::comparisons(const CalibratedFor &bonds) const {
   std::vector<std::vector<double>> strengths;
   for (const OfCase &of : cases_)
     strengths.push_back(of.strengths);
-  return of_platens(plan_.kind) ? compare(plan_, strengths) : std::vector<Comparison>{};
+  return of_platens(plan_.kind) ? compare(plan_, strengths, bonds) : std::vector<Comparison>{};
 }
 
 std::string StudyTables::text() const {

@@ -33,7 +33,7 @@ public:
   // One object a case: labels, counts, {"mean", "deviation", "runs"} of each figure. Repeats to the byte.
   Json cases() const;
   // Of a study of platens, once all rows are there; else nothing.
-  std::vector<Comparison> comparisons() const;
+  std::vector<Comparison> comparisons(const CalibratedFor &bonds) const;
   // For the screen, with what a run of each case cost.
   std::string text() const;
 

@@ -1,5 +1,6 @@
 // Cases of a study of a target.
 #include <algorithm>
+#include <cmath>
 
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
@@ -77,6 +78,24 @@ void check_other(const Scene &other, const StudyTarget &target) {
     refuse(other, "Integration/Time step", "leaves " + section + "Step seeds nothing to halve.");
 }
 
+// A gain by platen friction, or by slenderness, that the bonds of either side are not calibrated for is none:
+// no packing would change that.
+void check_calibration(const Scene &scene, const Scene &other) {
+  const auto slenderness = [](const Scene &of) { return of.specimen.height / of.specimen.width(); };
+  const auto need = [&](CalibratedFigure figure) {
+    for (const Scene *one : {&scene, &other})
+      if (const std::string reason = one->bond.calibrated.against(figure); !reason.empty())
+        refuse(scene, section + "Figure", "is none: " + reason + ". Allowed: strength, modulus.");
+  };
+  const auto differ = [](double a, double b) { return std::abs(a - b) > 1e-9; }; // not where one is not given
+  const Platens &own = scene.platens, &others = other.platens;
+  if (differ(own.top.friction_static, others.top.friction_static) ||
+      differ(own.bottom.friction_static, others.bottom.friction_static))
+    need(CalibratedFigure::friction);
+  if (scene.specimen.shape != other.specimen.shape || differ(slenderness(scene), slenderness(other)))
+    need(CalibratedFigure::slenderness);
+}
+
 // What runs do not need to know, lest another accuracy make them runs of another scene.
 std::vector<std::string> without_target(const Scene &scene) {
   std::vector<std::string> entries;
@@ -133,7 +152,10 @@ StudyPlan plan_target(const Scene &scene, const std::vector<std::string> &overri
     for (const double one : transits)
       plan.cases.push_back(case_of(scene, of > 0, one, "", {}));
   std::vector<Scene> sides{scene};
-  if (cases.scenes > 1) sides.push_back(read_other(scene, plan.cases[cases.at(1, 0)], overrides));
+  if (cases.scenes > 1) {
+    sides.push_back(read_other(scene, plan.cases[cases.at(1, 0)], overrides));
+    check_calibration(scene, sides.back());
+  }
   const auto beside = [&](const std::string &prefix, auto changed) {
     for (std::size_t of = 0; of < cases.scenes; ++of)
       plan.cases.push_back(case_of(scene, of > 0, transits.front(), prefix, {changed(sides[of])}));

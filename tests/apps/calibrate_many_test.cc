@@ -110,6 +110,34 @@ TEST(ManyTargets, eight_parameters_of_a_manufactured_response_are_recovered) {
     EXPECT_NEAR(a.correlations(knob, knob), 1, 1e-9);
 }
 
+// One run of the scene's cylinder serves its strength, its secant ratio and what a short one is compared with.
+TEST(ManyTargets, a_short_specimen_is_compared_with_one_twice_as_high_as_wide) {
+  Scene scene = yielding_scene();
+  scene.specimen.radius = 0.025, scene.specimen.height = 0.1;
+  scene.calibrate.targets = {target_of(TargetKind::strength, 43e6), target_of(TargetKind::slenderness, 1.15),
+                             target_of(TargetKind::secant_ratio, 0.2)};
+  const auto names = [&] {
+    const Goals goals(scene);
+    std::vector<std::string> all;
+    for (const SpecimenTest &test : goals.tests())
+      all.push_back(test.name());
+    return all;
+  };
+  EXPECT_EQ(names(), (std::vector<std::string>{"compression", "compression slenderness_1", "elastic"}));
+  const Goals goals(scene);
+  std::vector<TrialResult> packing(3);
+  packing[0].strength = 40e6, packing[0].poisson_ratio = 0.3;
+  packing[1].strength = 50e6, packing[1].poisson_ratio = 0.25;
+  packing[2].poisson_ratio = 0.2;
+  const Measured m = goals.measured(packing);
+  EXPECT_DOUBLE_EQ(m.numbers[1].mean(), 1.25);
+  EXPECT_DOUBLE_EQ(m.numbers[2].mean(), 0.3);
+  EXPECT_FALSE(goals.met(1, m));
+  scene.specimen.height = 0.08;
+  EXPECT_EQ(names(), (std::vector<std::string>{"compression", "compression slenderness_1",
+                                               "compression slenderness_2", "elastic"}));
+}
+
 // Strength and tension that both go with the product of limits and contact friction.
 // What ends at zero has its effect all the same, and is zero exactly.
 TEST(ManyTargets, a_friction_angle_of_zero_is_sensed_by_a_tenth_of_its_room) {

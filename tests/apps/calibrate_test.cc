@@ -417,6 +417,8 @@ TEST_F(CalibrateApp, every_kind_of_target_is_measured) {
       {"Kind = strength at pressure", "Value = 60 MPa", "Pressure = 4 MPa"},
       {"Kind = gain by friction", "Value = 1.4", "Form = box", "Slenderness = 1"},
       {"Kind = cube over prism", "Value = 1.3", "Slenderness = 2"},
+      {"Kind = slenderness", "Value = 1.15"},
+      {"Kind = secant ratio", "Value = 0.2"},
       {"Kind = curve", "File = " + (folder / "curve.csv").string(), "Tolerance = 0.1"}};
   for (std::size_t k = 0; k < targets.size(); ++k)
     for (const std::string &entry : targets[k])
@@ -433,6 +435,9 @@ TEST_F(CalibrateApp, every_kind_of_target_is_measured) {
   EXPECT_GT(number("triaxial_strength_pa"), number("compressive_strength_pa") + 1.5 * 4e6);
   EXPECT_GT(number("gain_by_friction"), 1.1);
   EXPECT_GT(number("cube_over_prism"), 1.02);
+  EXPECT_GT(number("strength_over_slender"), 1.02);
+  EXPECT_GT(number("secant_poisson_ratio"), number("poisson_ratio")); // bonds have broken on the way
+  EXPECT_LT(number("secant_poisson_ratio"), 1);
   EXPECT_GT(number("strain_at_peak_platen"), 5e-4);
   EXPECT_GT(number("curve_miss"), 0);
   EXPECT_LT(number("curve_miss"), 1);
@@ -502,6 +507,13 @@ TEST_F(CalibrateApp, faults_are_refused) {
       fault({"Calibrate/Compressive strength = 20 MPa", "Loading/Axial rate ="}).find("Loading/Axial rate"),
       std::string::npos);
   EXPECT_NE(fault({"Calibrate/Mode = abacus", "Calibrate/Poisson ratio list = 0.2"}).find("is for beams"),
+            std::string::npos);
+  EXPECT_NE(fault({"Calibrate/Target 1/Kind = slenderness", "Calibrate/Target 1/Value = 1.15",
+                   "Calibrate/Target 1/Slenderness = 2"})
+                .find("Calibrate/Target 1/Slenderness = 2 is that of the specimen that it is compared with"),
+            std::string::npos);
+  EXPECT_NE(fault({"Calibrate/Target 1/Kind = secant ratio", "Calibrate/Target 1/Value = 0"})
+                .find("Calibrate/Target 1/Value"),
             std::string::npos);
   EXPECT_NE(fault({"Effects/Bond = none", "Calibrate/Mode = bounds"}).find("Effects/Bond"),
             std::string::npos);

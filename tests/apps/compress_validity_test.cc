@@ -40,6 +40,7 @@ protected:
 
 const std::vector<std::string> strength{"strength_pa", "strain_at_peak_platen", "strain_at_peak_gauge",
                                         "barrel_at_peak"},
+    youngs_moduli{"youngs_modulus_gauge_pa", "youngs_modulus_platen_pa"},
     moduli{"youngs_modulus_gauge_pa", "youngs_modulus_platen_pa", "poisson_ratio"};
 
 TEST_F(Figures, of_a_crushed_cylinder_are_valid) {
@@ -99,7 +100,7 @@ TEST_F(Figures, for_which_bonds_are_not_calibrated_are_none) {
   expect_reason(tensile, strength,
                 "are not calibrated for it: Bond/Calibrated figures = elastic, tension, without compression");
   expect_reason(tensile, {"end_damage_top", "middle_damage", "end_spread"}, "without compression");
-  expect_valid(tensile, moduli);
+  expect_valid(tensile, youngs_moduli);
   EXPECT_GT(tensile["largest_stress_pa"].get<double>(), 0);
   const nlohmann::json crushed = crush("crushed", {of + "compression"});
   expect_valid(crushed, strength);
@@ -116,6 +117,20 @@ TEST_F(Figures, for_which_bonds_are_not_calibrated_are_none) {
   expect_valid(crush("confined", with("compression, confined, elastic")), {"strength_pa"});
 }
 
+// Poisson's ratio of a test goes to 40 % of the strength, where bonds have broken: that of small strains says
+// nothing of it.
+TEST_F(Figures, a_poisson_ratio_of_compression_needs_a_secant_ratio_that_was_calibrated) {
+  const std::string of = "Bond/Calibrated figures = elastic, compression";
+  const nlohmann::json without = crush("without", {of});
+  expect_reason(without, {"poisson_ratio"},
+                "Bond/Calibrated figures = elastic, compression, without secant ratio");
+  EXPECT_TRUE(without["poisson_ratio_extremal"].is_null());
+  expect_valid(without, youngs_moduli);
+  expect_valid(without, strength);
+  expect_valid(crush("with", {of + ", secant ratio"}), moduli);
+  expect_valid(crush("unsaid", {"Bond/Calibrated figures ="}), moduli);
+}
+
 TEST_F(Figures, of_a_tension_test_need_bonds_calibrated_in_tension) {
   const std::vector<std::string> pulled{"Loading/Test = tension",         "Platens/Attachment = glued",
                                         "Loading/Target strain = 0.002",  "Loading/Axial rate = 0.05 m/s",
@@ -127,6 +142,7 @@ TEST_F(Figures, of_a_tension_test_need_bonds_calibrated_in_tension) {
   };
   expect_reason(crush("a", with("compression, confined, elastic")), {"strength_pa"}, "without tension");
   expect_valid(crush("b", with("tension")), {"strength_pa"});
+  expect_valid(crush("c", with("tension, elastic")), {"poisson_ratio"}); // its bonds have not broken by 40 %
 }
 
 TEST_F(Figures, between_few_readings_are_none) {

@@ -118,6 +118,25 @@ TEST(ReportStudy, a_deviation_is_of_five_packings_and_more_a_range_of_fewer) {
             "; bars: standard deviation over the packings, of fewer than five their range");
 }
 
+TEST(ReportStudy, says_first_what_is_outside_the_laboratory_and_what_the_bonds_are_not_calibrated_for) {
+  const TestFolder folder;
+  Json file = example();
+  file["comparisons"][0]["verdict"] = "outside";
+  file["comparisons"][0]["mean"] = 1.94;
+  file["comparisons"][1].update({{"mean", nullptr}, {"deviation", nullptr}, {"reason", "not calibrated"}});
+  folder.write("study.json", file.dump());
+  const StudyResults study = read_study(folder.path());
+  ASSERT_GE(study.remarks.size(), 2u);
+  EXPECT_EQ(study.remarks[0],
+            "outside the laboratory's range: gain over free ends, dry steel, height/width 1: 1.940 +- 0.050, "
+            "laboratory 1.42 (1.21 to 1.59), Hughes");
+  EXPECT_EQ(study.remarks[1],
+            "strength over that at slenderness 2, dry steel, height/width 1: none: not calibrated");
+  const TableOfFigures table = table_of_study(study);
+  EXPECT_EQ(table.rows[0][5], "1.42 (1.21 to 1.59): outside");
+  EXPECT_EQ(table.rows[0][6], "-");
+}
+
 TEST(ReportStudy, what_is_no_finished_study_of_platens_is_refused) {
   const TestFolder folder;
   const auto refused = [&](const Json &study, const std::string &says) {

@@ -64,6 +64,58 @@ TEST(SceneBindings,
     EXPECT_EQ(notes({radius, "Bond/Calibrated radius = 1 mm", exponent}).size(), 0) << exponent;
 }
 
+// Twice as large a specimen of spheres twice as large has as many across: the same bonds, uncorrected.
+TEST(SceneBindings, spheres_across_the_least_width_decide_where_the_calibrated_width_is_given) {
+  const std::vector<std::string> calibrated{"Bond/Calibrated radius = 1 mm", "Bond/Calibrated width = 20 mm",
+                                            "Bond/Modulus exponent = -0.1", "Bond/Strength exponent = -0.02"};
+  const auto with = [&](std::vector<std::string> entries) {
+    entries.insert(entries.end(), calibrated.begin(), calibrated.end());
+    return scene_with(entries);
+  };
+  const auto modulus = [&](const std::vector<std::string> &entries) {
+    return model_settings(with(entries)).bond_layout.modulus;
+  };
+  const double own = model_settings(scene_with({})).bond_layout.modulus;
+  const auto cylinder = [](const char *radius, const char *spheres) {
+    return std::vector<std::string>{std::string("Specimen/Radius = ") + radius, "Specimen/Height = 80 mm",
+                                    std::string("Specimen/Sphere radius = ") + spheres};
+  };
+  EXPECT_NEAR(modulus(cylinder("30 mm", "3 mm")), own, 1e-9 * own);
+  EXPECT_NEAR(modulus(cylinder("20 mm", "1 mm")), own * std::pow(0.5, -0.1), 1e-9 * own); // 20 across for 10
+  EXPECT_NEAR(modulus(cylinder("10 mm", "1.2 mm")), own * std::pow(1.2, -0.1), 1e-9 * own);
+  const std::vector<std::string> plate{"Specimen/Shape = box",       "Specimen/Radius =",
+                                       "Specimen/Width x = 30 mm",   "Specimen/Width y = 20 mm",
+                                       "Specimen/Height = 80 mm",    "Specimen/Sphere radius = 1.2 mm"};
+  EXPECT_NEAR(modulus(plate), own * std::pow(1.2, -0.1), 1e-9 * own); // of the least
+  const auto refusal = [&](const std::vector<std::string> &entries) {
+    try {
+      with(entries);
+    } catch (const InputError &error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal(cylinder("30 mm", "1 mm"))
+                .find("Bond/Calibrated width = 20 mm with Calibrated radius = 1 mm is for 10 spheres across, and "
+                      "the specimen has 30 across its least width. Allowed: 6.67 to 20."),
+            std::string::npos)
+      << refusal(cylinder("30 mm", "1 mm"));
+  EXPECT_NE(refusal(cylinder("10 mm", "1.6 mm")).find("has 6.25 across"), std::string::npos);
+  EXPECT_EQ(refusal(cylinder("10 mm", "1.45 mm")), "");
+  EXPECT_EQ(refusal(cylinder("200 mm", "20 mm")), "");
+  const auto notes = [](std::vector<std::string> entries) {
+    entries.insert(entries.end(), {"Bond/Calibrated radius = 1 mm", "Bond/Calibrated width = 20 mm"});
+    return scene_with(entries).notes;
+  };
+  EXPECT_TRUE(notes(cylinder("30 mm", "3 mm")).empty());
+  const std::vector<std::string> told = notes(cylinder("15 mm", "1 mm"));
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_NE(told[0].find("is 0.667 times that of the calibration, Bond/Calibrated radius = 1 mm over "
+                         "Bond/Calibrated width = 20 mm (15 spheres across the least width for 10)"),
+            std::string::npos)
+      << told[0];
+}
+
 // The packing alone is made without bonds, and a pair has none.
 TEST(SceneBindings, another_packing_than_the_bonds_are_calibrated_for_is_refused_where_it_is_bonded) {
   const std::vector<std::string> another{"Bond/Calibrated packing = random close",

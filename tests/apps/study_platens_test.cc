@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <random>
 #include <thread>
 
@@ -210,6 +211,76 @@ TEST(Comparisons, ratios_are_taken_seed_by_seed_and_a_failed_run_counts_in_none)
   EXPECT_NE(text_of(plan, all).find("Hughes and Bahramian 1967"), std::string::npos);
 }
 
+// Of a material that nobody calibrated for platens, or for short specimens, a study has strengths and no ratios.
+TEST(Comparisons, need_bonds_that_are_calibrated_for_them) {
+  const StudyPlan plan = plan_with({"Study/Surface list = 0.57, grease", "Study/Slenderness list = 1, 2"});
+  const std::vector<std::vector<double>> strengths{{60, 60}, {30, 30}, {40, 40}, {30, 30}};
+  using Figure = CalibratedFigure;
+  const auto of = [&](const std::vector<Figure> &figures) {
+    std::map<PlatenEffect, std::string> reasons;
+    for (const Comparison &c : compare(plan, strengths, {std::nullopt, figures})) {
+      EXPECT_EQ(c.ratio.count(), c.reason.empty() ? 2u : 0u);
+      reasons[c.effect] = c.reason;
+    }
+    return reasons;
+  };
+  const auto gain = PlatenEffect::gain, relative = PlatenEffect::relative_strength;
+  EXPECT_EQ(of({})[gain], "");
+  EXPECT_EQ(of({})[relative], "");
+  auto reasons = of({Figure::compression, Figure::slenderness});
+  EXPECT_EQ(reasons[gain],
+            "the bonds are not calibrated for it: Bond/Calibrated figures = compression, slenderness, without "
+            "friction");
+  EXPECT_EQ(reasons[relative], "");
+  reasons = of({Figure::friction});
+  EXPECT_EQ(reasons[gain], "");
+  EXPECT_NE(reasons[relative], "");
+  const std::vector<Comparison> none = compare(plan, strengths, {std::nullopt, {Figure::compression}});
+  EXPECT_TRUE(json_of(plan, none)[0]["mean"].is_null());
+  EXPECT_EQ(json_of(plan, none)[0]["reason"], none[0].reason);
+  EXPECT_FALSE(json_of(plan, none)[0].contains("verdict"));
+  EXPECT_NE(text_of(plan, none).find("none: the bonds are not calibrated for it"), std::string::npos);
+  EXPECT_EQ(text_of(plan, none).find("laboratory"), std::string::npos);
+}
+
+TEST(Comparisons, outside_the_range_of_the_laboratory_are_told_as_outside) {
+  const StudyPlan plan = plan_with({"Study/Surface list = 0.57, grease", "Study/Slenderness list = 1, 2"});
+  const auto with = [&](double cube, double slender) {
+    return compare(plan, {{cube, cube}, {30, 30}, {slender, slender}, {30, 30}});
+  };
+  const auto gain = [](const std::vector<Comparison> &all, std::size_t of) {
+    return *std::find_if(all.begin(), all.end(), [&](const Comparison &c) {
+      return c.effect == PlatenEffect::gain && c.of == of;
+    });
+  };
+  // Mixes of 1967: 1.206 to 1.595 of cubes; 1.030 to 1.108 of prisms of 2.39, the nearest to 2.
+  for (const auto &[cube, outside] : {std::pair{36.1, true}, {36.3, false}, {47.7, false}, {47.9, true}})
+    EXPECT_EQ(gain(with(cube, 32), 0).outside(), outside) << cube;
+  for (const auto &[slender, outside] : {std::pair{30.8, true}, {31, false}, {33.2, false}, {33.3, true}})
+    EXPECT_EQ(gain(with(40, slender), 2).outside(), outside) << slender;
+  EXPECT_NE(gain(with(40, 32), 2).laboratory->source.find("prisms of 2.39"), std::string::npos);
+  // A factor without scatter, 1/.87: 5 % to both sides.
+  const auto relative = [&](double cube) {
+    const std::vector<Comparison> all = with(cube, 40);
+    return std::find_if(all.begin(), all.end(), [](const Comparison &c) {
+             return c.effect == PlatenEffect::relative_strength && c.of == 0;
+           })->outside();
+  };
+  EXPECT_TRUE(relative(43.6));
+  EXPECT_FALSE(relative(43.8));
+  EXPECT_FALSE(relative(48.2));
+  EXPECT_TRUE(relative(48.4));
+  const std::vector<Comparison> far = with(60, 32);
+  EXPECT_EQ(json_of(plan, far)[0]["verdict"], "outside");
+  EXPECT_NE(text_of(plan, far).find("outside the laboratory's 1.42 (1.21 ... 1.59), Hughes and Bahramian 1967"),
+            std::string::npos)
+      << text_of(plan, far);
+  EXPECT_EQ(json_of(plan, with(42, 32))[0]["verdict"], "within");
+  const std::vector<Comparison> failed = with(std::nan(""), 32);
+  EXPECT_FALSE(gain(failed, 0).outside());
+  EXPECT_FALSE(json_of(plan, failed)[0].contains("verdict"));
+}
+
 // Three platens and two heights on one seed: six runs of a tenth of a second.
 const std::vector<std::string> small{"--quiet",
                                      "-s",
@@ -250,6 +321,16 @@ TEST_F(Study, of_friction_has_a_row_for_each_run_and_compares_their_strengths) {
     }
   EXPECT_TRUE(found);
   EXPECT_GE(json("a")["laboratory"].size(), 10u);
+  const fs::path ratios = folder_ / "a/comparisons.csv";
+  ASSERT_EQ(words_in(ratios, "effect").size(), comparisons.size());
+  for (std::size_t k = 0; k < comparisons.size(); ++k) {
+    EXPECT_EQ(words_in(ratios, "case")[k], comparisons[k]["case"]);
+    EXPECT_EQ(column_of(ratios, "mean")[k], comparisons[k]["mean"].get<double>());
+    EXPECT_EQ(words_in(ratios, "verdict")[k], comparisons[k].value("verdict", ""));
+    if (!comparisons[k]["laboratory"].is_null()) {
+      EXPECT_EQ(column_of(ratios, "laboratory_high")[k], comparisons[k]["laboratory"]["high"].get<double>());
+    }
+  }
   EXPECT_EQ(lines_in(folder_ / "a/costs.csv"), 7);
 
   ASSERT_EQ(run("one", small, "friction").status, 0);

@@ -71,6 +71,20 @@ TEST(TargetCases, what_leaves_nothing_to_plan_is_refused) {
   refused({"Study/Target/Step seeds = 3", "Integration/Time step = 1e-8 s"},
           "Study/Target/Step seeds = 3 has no effect: Integration/Time step is set");
   refused({"Study/Target/Figure = gain", "Study/Target/Over scene = nowhere.prm"}, "nowhere.prm");
+  const std::vector<std::string> greased{
+      "Study/Target/Figure = gain",
+      "Study/Target/Over = Platens/Friction static = 0, Platens/Friction dynamic = 0"},
+      lower{"Study/Target/Figure = gain", "Study/Target/Over = Specimen/Height = 15 mm"};
+  const auto also = [](std::vector<std::string> entries, const std::string &figures) {
+    entries.push_back("Bond/Calibrated figures = " + figures);
+    return entries;
+  };
+  refused(also(greased, "compression, slenderness"),
+          "Study/Target/Figure = gain is none: the bonds are not calibrated for it: Bond/Calibrated figures = "
+          "compression, slenderness, without friction");
+  refused(also(lower, "compression, friction"), "without slenderness");
+  EXPECT_NO_THROW(plan_with(also(greased, "compression, friction")));
+  EXPECT_NO_THROW(plan_with(also(lower, "compression, slenderness")));
 }
 
 // Another file with a step, spheres and a residual of its own.

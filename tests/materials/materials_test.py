@@ -12,12 +12,13 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-ALLOWED = {"E": 3, "Poisson's ratio": 3, "strength": 5, "tension": 5}  # %; strengths under pressure 10
+ALLOWED = {"E": 3, "Poisson's ratio": 3, "strength": 5, "tension": 5}  # %; strengths under pressure 10; ranges of the laboratory: words()
 SCENE = """include materials/{}.prm
 subsection Specimen
   set Shape = cylinder
-  set Radius = 12 mm
-  set Height = 24 mm
+  set Radius = 12.5 mm
+  set Height = 25 mm
+  set Sphere radius = 1.1 mm
 end
 subsection Platens
   set Friction static = 0.57
@@ -55,8 +56,12 @@ def included(apps, name):
     status, said, _ = run(apps, name, "--dry-run", "-s", "Specimen/Packing = advancing front")
     check(status == 2 and any("Specimen/Packing = advancing front is not what the bonds are calibrated for" in line for line in said),
           f"{name} is refused with another packing: status {status} {said}")
-    status, said, _ = run(apps, name, "--dry-run", "-s", "Specimen/Sphere radius = 1.8 mm")
-    check(status == 0 and len(said) == 1 and "times that of the calibration" in said[0], f"{name} with other spheres is noted: status {status} {said}")
+    status, said, _ = run(apps, name, "--dry-run", "-s", "Specimen/Sphere radius = 0.9 mm")
+    check(status == 0 and len(said) == 1 and "times that of the calibration" in said[0] and "13.9 spheres across the least width for 11.4" in said[0],
+          f"{name} with other spheres is noted: status {status} {said}")
+    standard = ["-s", "Specimen/Radius = 75 mm", "-s", "Specimen/Height = 300 mm", "-s", "Specimen/Sphere radius = 6.6 mm"]
+    status, said, _ = run(apps, name, "--dry-run", *standard)
+    check(status == 0 and not said, f"{name} is accepted as a cylinder of 150 mm x 300 mm with spheres in proportion: status {status} {said}")
 
 
 def figures_of_tests(apps):
@@ -66,6 +71,24 @@ def figures_of_tests(apps):
         strength, validity = summary.get("strength_pa"), summary.get("validity", {}).get("strength_pa")
         check(status == 0 and (strength is not None) == has and (has or any("without compression" in reason for reason in validity)),
               f"{name} in compression {'has' if has else 'has no'} strength: {strength}, {validity}, status {status} {said}")
+        against = summary.get("validity", {}).get("poisson_ratio")
+        check(summary.get("poisson_ratio") is None and any("without secant ratio" in reason for reason in against),
+              f"{name} in compression has no Poisson's ratio to 40 % of the strength: {against}")
+        check(summary.get("youngs_modulus_gauge_pa") is not None, f"{name} in compression has E")
+
+
+def words(name, text, table):
+    """What friction and slenderness do, and the secant ratio, are claimed where the table of five packings has them within the laboratory's range; else
+    a compression test has no Poisson's ratio."""
+    claimed = re.search(r"^  set Calibrated figures = (.*)$", text, re.M)[1].split(", ")
+    row = re.search(rf"^\| {name} \|(.*\|.*\|.*\|.*\|.*)\|$", table[table.index("## Platens"):], re.M)
+    check(row is not None, f"{name} stands in the table of platens")
+    cells = [cell.strip() for cell in row[1].split("|")]
+    of = {"friction": cells[0:2], "slenderness": cells[2:3], "secant ratio": cells[3:4]}
+    for word in of:
+        bad = [cell for cell in of[word] if cell.startswith(("**", "no"))]  # outside, none, not measured
+        check(word not in claimed or not bad, f"{name} claims {word} only where it is met: {of[word]}")
+        check(word in claimed or re.search(rf"^# Not calibrated: .*{word}", text, re.M), f"{name} says that {word} is not calibrated")
 
 
 def packing(name, text):
@@ -100,6 +123,7 @@ def main():
         included(apps, path.stem)
         packing(path.stem, text)
         figures(path.stem, text, table)
+        words(path.stem, text, table)
     figures_of_tests(apps)
     check(set(re.findall(r"^\| (\w+) \| E,", table, re.M)) == {path.stem for path in files}, "the table has every material and no other")
     return 1 if faults else 0
