@@ -122,14 +122,14 @@ TEST(ReportStudy, says_first_what_is_outside_the_laboratory_and_what_the_bonds_a
   const TestFolder folder;
   Json file = example();
   file["comparisons"][0]["verdict"] = "outside";
-  file["comparisons"][0]["mean"] = 1.94;
+  file["comparisons"][0].update({{"mean", 1.94}, {"low", 1.89}, {"high", 1.99}});
   file["comparisons"][1].update({{"mean", nullptr}, {"deviation", nullptr}, {"reason", "not calibrated"}});
   folder.write("study.json", file.dump());
   const StudyResults study = read_study(folder.path());
   ASSERT_GE(study.remarks.size(), 2u);
   EXPECT_EQ(study.remarks[0],
-            "outside the laboratory's range: gain over free ends, dry steel, height/width 1: 1.940 +- 0.050, "
-            "laboratory 1.42 (1.21 to 1.59), Hughes");
+            "outside the laboratory's range: gain over free ends, dry steel, height/width 1: 1.890 ... 1.990, 3 "
+            "packings, laboratory 1.42 (1.21 to 1.59), Hughes");
   EXPECT_EQ(study.remarks[1],
             "strength over that at slenderness 2, dry steel, height/width 1: none: not calibrated");
   const TableOfFigures table = table_of_study(study);
