@@ -94,6 +94,7 @@ private:
   int before_;
 };
 
+// Cores that this process may run on (its affinity), at least 1.
 int hardware_threads();
 
 } // namespace platen

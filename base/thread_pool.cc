@@ -4,6 +4,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/parallel.h"
+
 namespace platen {
 
 namespace {
@@ -64,7 +66,7 @@ void ThreadPool::resize(int threads) {
   threads_.clear();
   stopping_ = false;
   const std::size_t size = static_cast<std::size_t>(threads);
-  checks_ = size <= std::thread::hardware_concurrency() ? checks_before_sleep : 0;
+  checks_ = threads <= hardware_threads() ? checks_before_sleep : 0;
   shares_ = std::vector<Shares>(size);
   for (std::size_t k = 1; k < size; ++k)
     threads_.emplace_back([this, k] { serve(k); });

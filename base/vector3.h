@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/block_type.h"
+#include "base/portable.h"
 
 namespace platen {
 
@@ -103,8 +104,8 @@ inline bool is_identity(const Quaternion &q) {
 inline Quaternion rotation_quaternion(const Vector3 &phi) {
   const double angle = norm(phi);
   if (angle < 1e-12) return normalised({1.0, 0.5 * phi.x, 0.5 * phi.y, 0.5 * phi.z});
-  const double s = std::sin(0.5 * angle) / angle;
-  return {std::cos(0.5 * angle), s * phi.x, s * phi.y, s * phi.z};
+  const double s = portable::sin(0.5 * angle) / angle;
+  return {portable::cos(0.5 * angle), s * phi.x, s * phi.y, s * phi.z};
 }
 
 template <>

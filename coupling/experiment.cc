@@ -196,13 +196,17 @@ void Experiment::carry(const std::vector<Vector3> &displacement, const std::vect
   }
   for (std::size_t b = 0; b < boundaries_.size(); ++b)
     commands_[b].velocity = (1 / pseudo_step) * of_boundaries.at(b);
-  const double chosen = time_step_;
   const ExactSum damped = model.works.damping;
-  time_step_ = pseudo_step;
-  model.begin_step(pseudo_step);
-  compute_forces();
-  model.end_step(pseudo_step);
-  time_step_ = chosen;
+  {
+    struct Back { // after forces that throw too
+      double &step, chosen;
+      ~Back() { step = chosen; }
+    } const back{time_step_, time_step_};
+    time_step_ = pseudo_step;
+    model.begin_step(pseudo_step);
+    compute_forces();
+    model.end_step(pseudo_step);
+  }
   if (model.breaks > 0)
     throw BadSetup("loading.start_strain", "breaks " + std::to_string(model.breaks) +
                                                " bonds at once, which a static solve does not follow. "

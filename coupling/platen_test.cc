@@ -97,7 +97,12 @@ PlatenTest::PlatenTest(const dem::Specimen &specimen, const PlatenTestSettings &
     settings_.platens.thickness = thickness_over_height * specimen.shape.height;
   require_in_range();
   add_platens(specimen);
+  section_ = dem::solid_section(specimen, bent() ? 0 : loaded_axis(*this));
+  require_one_section();
   facts_ = facts_of(specimen, settings.model, model);
+  facts_.voigt_modulus /= section_share(); // per volume of what bears; its waves are as fast
+  for (double &modulus : facts_.affine_moduli)
+    modulus /= section_share();
   for (const Side side : all_sides)
     require_cover(side);
   seat_platens(specimen);
@@ -113,6 +118,17 @@ double PlatenTest::seconds_behind() const {
   for (const Platen *platen : platens_)
     if (platen != nullptr) latest = std::max(latest, platen->seconds_behind());
   return latest;
+}
+
+void PlatenTest::require_one_section() const {
+  if (!settings_.net_section || section_.fills()) return;
+  if (bent() || shape().kind == dem::ShapeKind::disc || loaded_axis(*this) != 2)
+    throw BadSetup("net_section", "is of specimens that are pressed or pulled along z. Allowed: nominal.");
+  if (section_.same_at_all_heights()) return;
+  const auto percent = [](double share) { return std::to_string(std::lround(100 * share)); };
+  throw BadSetup("net_section", "is not one: the spheres fill " + percent(section_.least) + " to " +
+                                    percent(section_.largest) +
+                                    " % of the shape's section by height. Allowed: nominal.");
 }
 
 void PlatenTest::require_in_range() const {

@@ -13,6 +13,7 @@
 #include "coupling/program/task.h"
 #include "dem/measure/circumference.h"
 #include "dem/measure/gauge.h"
+#include "dem/measure/solid_section.h"
 
 namespace platen::coupling {
 
@@ -41,6 +42,9 @@ public:
 
   const PlatenTestSettings &settings() const { return settings_; } // as given, but for the rate by transits
   const SpecimenFacts &facts() const { return facts_; }
+  const dem::SolidSection &section() const { return section_; } // across the loaded axis; of a bent bar, x
+  // What stresses along z are over, of the shape's section: 1, but with net_section where it is not filled.
+  double section_share() const { return settings_.net_section && !section_.fills() ? section_.mean : 1; }
   double coordination_number() const;                          // bonds per particle times two
   double ramp() const { return ramp_; }                        // s, of the axial loading
   double cell_ramp() const { return cell_ramp_; }              // s; 0 without a cell
@@ -103,8 +107,10 @@ public:
   // Pa over nominal_area(): what the platens press on the sleeve's ends, which stress_top() and
   // stress_bottom() leave out, beyond the pressure that stands in the rubber anyway. NaN without a sleeve.
   double sleeve_deviator() const;
-  // m^2: the cross-section; of a bent bar what makes the load its nominal flexural stress.
-  double nominal_area() const { return bent() ? three_points().nominal_area() : shape().cross_section(); }
+  // m^2: the cross-section, or the net one; of a bent bar what makes the load its nominal flexural stress.
+  double nominal_area() const {
+    return bent() ? three_points().nominal_area() : section_share() * shape().cross_section();
+  }
   dem::ThreePoints three_points() const { return {settings_.platens.span, shape().width_y, shape().height}; }
   double bending_period()
       const; // s, first period of the bar on its supports: slender, with the Voigt modulus
@@ -134,6 +140,7 @@ protected:
 
 private:
   void require_in_range() const;
+  void require_one_section() const;
   void add_platens(const dem::Specimen &specimen);
   void require_cover(Side side) const;
   void seat_platens(const dem::Specimen &specimen);
@@ -155,6 +162,7 @@ private:
   mutable std::optional<dem::Circumference> circumference_; // made when it is asked for
   double ramp_ = 0, cell_ramp_ = 0;                         // s
   double servo_slowness_ = 1; // of the stages' servos, against a cell's quickest
+  dem::SolidSection section_;
 };
 
 } // namespace platen::coupling

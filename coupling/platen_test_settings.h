@@ -144,6 +144,9 @@ struct PlatenTestSettings {
   Ends ends = Ends::as_packed;
   double end_layer = 1; // mean radii, for ground ends
   bool seat = false;    // rocking springs of ground spheres
+  // Stresses along z are over the part of the section that the specimen fills, which has to be the same at
+  // all heights (dem::solid_section); else over the section of the shape.
+  bool net_section = false;
   PlatenSettings platens;
   LoadingSettings loading;
   TimeStepSettings time_step;

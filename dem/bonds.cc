@@ -96,7 +96,17 @@ double BondLayout::largest_overlap(double ri, double rj) const {
 double packing_factor(const Specimen &s, const BondLayout &layout) {
   const double pairs =
       static_cast<double>(pairs_in_range(s.centre.data(), s.radius.data(), s.size(), layout).size());
+  if (pairs == 0)
+    throw BadParameter(
+        BondLayout::name, "area_factor", "0",
+        "is taken from the bonds of a sphere, and there are none: no two spheres are that near. "
+        "Allowed: > 0, a larger gap, or a denser packing.");
   const double porosity = 1 - volume_of_spheres(s) / s.shape.volume();
+  if (!(porosity > 0))
+    throw BadParameter(BondLayout::name, "area_factor", "0",
+                       "is taken from the porosity, and there is none: the spheres, overlaps counted twice, "
+                       "fill " +
+                           std::to_string(100 * (1 - porosity)) + " % of the shape. Allowed: > 0.");
   return 40 * porosity * static_cast<double>(s.size()) / (2 * pairs);
 }
 

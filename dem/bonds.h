@@ -73,7 +73,8 @@ void BondLayout::describe(Visitor &&v, Self &p) {
 }
 
 // 40 P / N_c with the porosity P of the specimen (a share) and the mean number N_c of pairs in range that a
-// sphere has: 1 at 25 % and 10 (Onate et al. 2015, eq. 22).
+// sphere has: 1 at 25 % and 10 (Onate et al. 2015, eq. 22). Throws BadParameter where there is no pair or no
+// porosity.
 double packing_factor(const Specimen &specimen, const BondLayout &layout);
 
 enum class BondState : int { intact = 0, damaged = 1, broken_in_tension = 2, broken_in_shear = 3 };

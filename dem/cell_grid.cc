@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/parallel.h"
+#include "base/rows.h"
 #include "dem/particles.h"
 
 namespace platen::dem {
@@ -39,7 +40,8 @@ struct Grid {
     // No cell holds such a centre, and no edge is long enough for an infinite box.
     if (!(norm_squared(zero) == 0 && std::isfinite(norm_squared(high - low))))
       throw NotFinite("the place of a sphere is not finite");
-    const double most = 4.0 * static_cast<double>(spheres.size()) + 64.0;
+    const double most = std::min(4.0 * static_cast<double>(spheres.size()) + 64.0,
+                                 static_cast<double>(most_rows)); // of the numbers of cells
     double edge = 2 * largest + std::max(margin, 0.0);
     if (!(edge > 0)) edge = 1; // points
     for (;; edge *= 1.26) {
@@ -98,6 +100,7 @@ std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, s
                                   double margin, std::size_t *measured, const BlockList *listed) {
   if (measured != nullptr) *measured = 0;
   if (count < 2) return {};
+  require_rows(count);
   const std::vector<int> class_of = size_classes(radii, count, margin);
   std::vector<std::vector<int>> spheres(most_classes);
   for (std::size_t i = 0; i < count; ++i)
@@ -137,6 +140,8 @@ std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, s
     }
   });
   std::vector<IndexPair> pairs;
+  require_rows(std::accumulate(found.begin(), found.end(), std::size_t{0},
+                               [](std::size_t sum, const auto &f) { return sum + f.size(); }));
   for (const auto &f : found)
     pairs.insert(pairs.end(), f.begin(), f.end());
   if (grids.size() > 1) std::sort(pairs.begin(), pairs.end());

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/portable.h"
 #include "base/random.h"
 #include "dem/bonds.h"
 #include "dem/particles.h"
@@ -50,12 +51,12 @@ void apply_phases(Bonds &bonds, const Particles &particles, const Phases &phases
 std::vector<double> weibull_factors(std::size_t count, const StrengthScatter &scatter) {
   const double m = scatter.weibull_modulus;
   if (!(m > 0 && std::isfinite(m))) throw std::invalid_argument("the Weibull modulus must be positive");
-  const double scale = 1 / std::tgamma(1 + 1 / m);
+  const double scale = 1 / portable::gamma(1 + 1 / m);
   Random random(scatter.seed ^ stream);
   std::vector<double> factors(count);
   for (double &s : factors) {
     const double survival = 1 - random.uniform(); // above 0, and 1 once in 2^53: no strength at all
-    s = scale * std::pow(-std::log(survival), 1 / m);
+    s = scale * portable::pow(-portable::log(survival), 1 / m);
     if (!(s > 0)) s = std::numeric_limits<double>::min();
   }
   return factors;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/pi.h"
+#include "base/rows.h"
 #include "dem/packing/specimen.h"
 
 namespace platen::dem {
@@ -83,6 +84,7 @@ std::vector<int> spatial_order(const std::vector<Vector3> &centres) {
 
 Particles::Particles(const Specimen &specimen, double density, bool rotation) {
   if (rotation) add_rotation();
+  require_rows(specimen.size());
   table.resize(specimen.size());
   id.allow(row_of(specimen.size()));
   const std::vector<int> order = spatial_order(specimen.centre);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/portable.h"
 #include "fem/elastic_solid.h"
 
 namespace platen::fem {
@@ -275,11 +276,11 @@ void ElasticSolid::damp(double dt) {
     relative[i] = to_frame(rate_[i] - carried_velocity(arm(i)));
   if (beta > 0) multiply(model_.stiffness, relative, impulse);
   Vector3 force{}, moment{};
+  const double slowed = 1 - portable::exp(-alpha * dt); // share of its speed that a node loses
   for (std::size_t i = 0; i < rate_.size(); ++i) {
     const double mass = model_.mass[i];
     const Vector3 w = to_space(relative[i]);
-    const Vector3 push =
-        free_part(i, (-dt * beta) * to_space(impulse[i]) + (-mass * (1 - std::exp(-alpha * dt))) * w);
+    const Vector3 push = free_part(i, (-dt * beta) * to_space(impulse[i]) + (-mass * slowed) * w);
     const Vector3 gain = (1 / mass) * push;
     rate_[i] = rate_[i] + gain;
     dissipated_ -= dot(push, w + 0.5 * gain);

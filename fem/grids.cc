@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "base/pi.h"
+#include "base/portable.h"
 #include "base/require.h"
 
 namespace platen::fem {
@@ -52,7 +53,7 @@ private:
   dealii::Point<2> ring_point(int ring, int k) const {
     const double t = static_cast<double>(ring) / rings_, angle = 2.0 * pi * k / (4.0 * n_) - 0.75 * pi;
     const dealii::Point<2> inner = points_[static_cast<std::size_t>(around(0, k))];
-    const dealii::Point<2> outer(radius_ * std::cos(angle), radius_ * std::sin(angle));
+    const dealii::Point<2> outer(radius_ * portable::cos(angle), radius_ * portable::sin(angle));
     return dealii::Point<2>((1.0 - t) * inner + t * outer);
   }
   int core(int i, int j) const { return j * (n_ + 1) + i; }
@@ -215,7 +216,8 @@ Grid make_grid(const Tube &tube) {
     for (int i = 0; i < around; ++i)
       for (int j = 0; j <= through; ++j) {
         const double r = tube.inner_radius + tube.thickness * j / through, angle = 2 * pi * i / around;
-        points.emplace_back(r * std::cos(angle), r * std::sin(angle), tube.z_low + tube.height * k / along);
+        points.emplace_back(r * portable::cos(angle), r * portable::sin(angle),
+                            tube.z_low + tube.height * k / along);
       }
   std::vector<dealii::CellData<3>> cells;
   dealii::SubCellData sides;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/portable.h"
+
 namespace platen::fem {
 
 namespace {
@@ -144,12 +146,12 @@ double eigenvalue_bound(const CellStiffness &stiffness, const std::array<double,
     for (std::size_t m = 0; m < b.size(); ++m)
       a[m] = b[m] / largest;
     power *= 2;
-    logarithm = 2 * logarithm + std::log(largest);
+    logarithm = 2 * logarithm + portable::log(largest);
   }
   double trace = 0; // of the square: that of the 16th power
   for (const double x : a)
     trace += x * x;
-  return size * std::exp((2 * logarithm + std::log(trace)) / (2 * power));
+  return size * portable::exp((2 * logarithm + portable::log(trace)) / (2 * power));
 }
 
 FaceCorners corner_areas(const FaceCorners &place) {

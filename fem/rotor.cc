@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/portable.h"
+
 namespace platen::fem {
 
 Matrix3 inverse(const Matrix3 &a) {
@@ -39,7 +41,8 @@ double largest_eigenvalue(const Matrix3 &a) {
   if (!(q > 0)) return m;
   const Vector3 x = {b[0], b[1], b[2]}, y = {b[3], b[4], b[5]}, z = {b[6], b[7], b[8]};
   const double r = 0.5 * dot(x, cross(y, z));
-  return m + 2 * std::sqrt(q) * std::cos(std::acos(std::clamp(r / (q * std::sqrt(q)), -1.0, 1.0)) / 3);
+  return m +
+         2 * std::sqrt(q) * portable::cos(portable::acos(std::clamp(r / (q * std::sqrt(q)), -1.0, 1.0)) / 3);
 }
 
 } // namespace platen::fem

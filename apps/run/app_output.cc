@@ -34,7 +34,7 @@ void clear(Json &summary, std::initializer_list<const char *> keys) {
 } // namespace
 
 int threads_of(const CommandLine &command) {
-  const int cores = hardware_threads();
+  const int cores = this_machine().cores;
   return command.threads > 0 ? std::min(command.threads, cores) : std::max(1, cores / this_rank().here);
 }
 
@@ -97,7 +97,7 @@ void AppOutput::open(int working_threads) {
       write_text_aside(paths.scene(), scene_text(scene_, paths.folder));
     }
     log.open(paths.log(), command_.resume, {version_text(), command_.text, working_threads});
-    if (command_.threads > hardware_threads())
+    if (command_.threads > this_machine().cores)
       log.info("{} threads were asked for, {} are used: more than there are cores only wait for each other",
                command_.threads, threads_of(command_));
   } catch (const OutputError &) { // a full disk: no folder is left in which nothing is

@@ -98,7 +98,7 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   if (!common.note.empty()) log_.warning("{}", common.note);
   test_ = std::make_unique<coupling::PlatenTest>(specimen, settings);
   require_prompt_platens(*test_);
-  specimen_state_ = state_of(specimen, *test_);
+  specimen_state_ = state_of(scene, specimen, *test_);
   require_specimen(scene, specimen_state_);
   results_ = Results(scene.loading.test == LoadingTest::tension, {scene.output.sound_share},
                      coupling::loaded_axis(*test_), tells_pattern(scene, *test_));

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "apps/io/specimen_csv.h"
+#include "base/portable.h"
 
 namespace platen::apps {
 namespace {
@@ -33,7 +34,7 @@ dem::ModelSettings model_settings(const Scene &scene) {
   if (scene.bond.size.reference > 0) {
     const double share = scene.bond.size.share(scene.specimen);
     to.bond = scene.bond.for_size(share).parameters();
-    to.bond_layout.modulus *= std::pow(share, scene.bond.size.modulus_exponent);
+    to.bond_layout.modulus *= portable::pow(share, scene.bond.size.modulus_exponent);
   }
   to.bond_layout.by_range = scene.bond.bonds_by_range();
   if (scene.bond.bonded() && scene.bond.scattered) {

@@ -126,6 +126,7 @@ coupling::PlatenTestSettings settings_without_meshes(const Scene &scene) {
   to.ends = scene.specimen.ends;
   to.end_layer = scene.specimen.end_layer;
   to.seat = scene.specimen.seat;
+  to.net_section = scene.specimen.net_section;
   to.platens = platen_settings(scene);
   to.loading = scene.loading;
   to.loading.tension = scene.loading.test == LoadingTest::tension;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "coupling/program_of_test.h"
@@ -63,8 +64,11 @@ void require_spheres(const Scene &scene, const dem::Specimen &specimen) {
                      specimen.size() == 1 ? "" : "s", fewest_spheres));
 }
 
-SpecimenState state_of(const dem::Specimen &specimen, const coupling::PlatenTest &test) {
+SpecimenState state_of(const Scene &scene, const dem::Specimen &specimen, const coupling::PlatenTest &test) {
   SpecimenState state;
+  state.section = test.section();
+  state.mean_radius = test.facts().mean_radius;
+  if (scene.specimen.packing != PackingKind::file) state.radius_asked = scene.specimen.sphere_radius;
   state.spheres = specimen.size();
   state.bonds = test.model.bonds ? test.model.bonds->initial_count() : 0;
   const int axis = coupling::loaded_axis(test);
@@ -114,10 +118,23 @@ std::string text_of(const SpecimenState &state) {
     text += fmt::format(
         "  pieces {}, the largest with {:.1f} % of the bonded spheres; {} spheres without a bond\n",
         state.pieces, 100 * state.largest_piece, state.loose);
+  if (const std::string filled = text_of(state.section); !filled.empty())
+    text += "  spheres and their pores fill " + filled + "\n";
+  text += fmt::format("  mean radius {:.5g} mm", 1e3 * state.mean_radius);
+  if (!std::isnan(state.radius_asked))
+    text += fmt::format(", {:+.2f} % of the {:.5g} mm asked",
+                        100 * (state.mean_radius / state.radius_asked - 1), 1e3 * state.radius_asked);
+  text += "\n";
   return text + fmt::format(
                     "  deepest overlap {:.3g} of a radius, outermost spheres {:.3g} and {:.3g} mm from the "
                     "ends\n",
                     state.deepest_overlap, 1e3 * state.from_ends[0], 1e3 * state.from_ends[1]);
+}
+
+std::string text_of(const dem::SolidSection &section) {
+  if (std::isnan(section.mean)) return "";
+  return fmt::format("{:.1f} % of the shape's section, {:.1f} to {:.1f} % by height", 100 * section.mean,
+                     100 * section.least, 100 * section.largest);
 }
 
 } // namespace platen::apps

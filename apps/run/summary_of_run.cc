@@ -20,6 +20,17 @@
 namespace platen::apps {
 namespace {
 
+// What stresses are over, and how much of the shape's section is filled by height.
+Json figures_of_section(const coupling::PlatenTest &problem) {
+  const dem::SolidSection &section = problem.section();
+  Json json;
+  json["over"] = problem.section_share() == 1 ? "nominal" : "net";
+  json["area_m2"] = problem.nominal_area();
+  json["filled_mean"] = section.mean, json["filled_least"] = section.least;
+  json["filled_largest"] = section.largest;
+  return json;
+}
+
 Json stage_seconds(const dem::StageClock &clock) {
   Json stages;
   for (int k = 0; k < dem::stage_count; ++k)
@@ -190,6 +201,7 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["coordination_number"] = problem.coordination_number();
   s["packing_fraction"] = problem.facts().packing_fraction;
   s["mean_radius_m"] = problem.facts().mean_radius;
+  s["section"] = figures_of_section(problem);
   if (const Tiling tiling = tiling_of(scene, problem.shape()); tiling.tiles > 0) {
     s["tiles"] = tiling.tiles;
     s["tile_period_m"] = tiling.period;

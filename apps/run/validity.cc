@@ -10,6 +10,7 @@
 #include "apps/run/controls.h"
 #include "apps/run/failure_summary.h"
 #include "apps/run/pressure_path.h"
+#include "apps/run/specimen_check.h"
 #include "apps/run/summary_of_run.h"
 #include "dem/measure/gauge.h"
 
@@ -33,6 +34,11 @@ const Figures of_modulus{"youngs_modulus_gauge_pa",  "youngs_modulus_platen_pa",
 const Figures of_damage{"end_damage_top", "end_damage_bottom", "worse_end_damage", "middle_damage",
                         "end_spread",     "cone_top",          "cone_bottom",      "pattern"};
 const Figures of_cell{"bulk_modulus_pa"};
+// Loads over the section of the specimen.
+const Figures of_section{"strength_pa",         "deviator_strength_pa",    "side_stress_at_peak_pa",
+                         "moment_over_nominal", "youngs_modulus_gauge_pa", "youngs_modulus_platen_pa",
+                         "flexural_modulus_pa", "constrained_modulus_pa",  "lateral_over_axial_stress",
+                         "bulk_modulus_pa"};
 
 // Nothing in a test is better known than its energy is balanced.
 constexpr double most_residual = 0.1; // of the work
@@ -325,6 +331,15 @@ void judge_calibration(Validity &of, const Scene &scene, const coupling::PlatenT
   }
 }
 
+void judge_section(Validity &of, const coupling::PlatenTest &problem) {
+  const dem::SolidSection &section = problem.section();
+  if (section.fills() || problem.section_share() != 1) return;
+  of.add(of_section,
+         "the spheres and their pores fill " + text_of(section) +
+             ": a stress over the nominal section is not that of the material" +
+             (section.same_at_all_heights() ? ". Specimen/Section = net divides by what is filled" : ""));
+}
+
 // What summary.json says the validity of, in this order.
 const Figures headline{"strength_pa",
                        "deviator_strength_pa",
@@ -389,6 +404,7 @@ Validity judge(const Scene &scene, const coupling::PlatenTest &problem, const Re
   Validity of;
   judge_numbers(of, problem, results);
   judge_kind_of_test(of, problem, results);
+  judge_section(of, problem);
   judge_calibration(of, scene, problem);
   judge_strength(of, problem, results);
   judge_moduli(of, problem, results);

@@ -38,6 +38,7 @@ const std::vector<Reader> &readers() {
                                          {"Specimen/Ends", but(packed, {K::bar})},
                                          {"Specimen/End layer", but(packed, {K::bar})},
                                          {"Specimen/Seat", loading},
+                                         {"Specimen/Section", in_cells},
                                          {"Specimen/Cache", but(bonded, {K::bonds})},
                                          {"Material/Density", all},
                                          {"Material/Density of", packed},

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/portable.h"
+
 namespace platen::apps {
 namespace {
 
@@ -74,7 +76,7 @@ void Bond::set(const std::string &member, const std::vector<double> &values) {
 Bond Bond::for_size(double share) const {
   Bond to = *this;
   if (!(size.reference > 0)) return to;
-  const double factor = std::pow(share, size.strength_exponent);
+  const double factor = portable::pow(share, size.strength_exponent);
   for (const char *strength : {"tensile_strength", "shear_strength"})
     to.set(strength, factor * number(strength)); // of all laws: the same number
   std::vector<double> limits = list("compression_limits");

@@ -34,6 +34,7 @@ struct SpecimenSection {
   dem::EndPreparation ends = dem::EndPreparation::as_packed;
   double end_layer = 1; // mean sphere radii
   bool seat = false;
+  bool net_section = false;
   std::string cache = "default"; // folder of packings that are kept; default: that of the user; none: none
 
   bool round() const {

@@ -41,7 +41,7 @@ void declare_integration(Parameters &parameters, coupling::TimeStepSettings &tim
   section.entry<dem::InstructionSet>(
       "Instruction set", model.instruction_set,
       {{"best", dem::best_instruction_set()}, {"baseline", dem::InstructionSet::baseline}},
-      "Baseline repeats to the bit on every x86-64 processor.");
+      "Baseline repeats to the bit on every x86-64 processor (not: quasi-static platens).");
 }
 
 void declare_output(Parameters &parameters, Output &output, Checkpoint &checkpoint) {

@@ -66,6 +66,12 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
             "the user, ~/.cache/platen/packings; none: each run packs.")
       .unless("Specimen/Packing", {"file"});
   section.entry("Seat", specimen.seat, "Ground spheres resist rocking on the platen by their flat face.");
+  section
+      .entry<bool>("Section", specimen.net_section, {{"nominal", false}, {"net", true}},
+                   "What stresses are over. Nominal: the section of the shape. Net: the part of it that the "
+                   "spheres fill with their pores, where that is the same at all heights; the nominal one "
+                   "where they fill it.")
+      .member("net_section");
 }
 
 void declare_material(Parameters &parameters, dem::ModelSettings &model, dem::ContactSettings &contact) {

@@ -59,7 +59,7 @@ public:
   int run();
 
 private:
-  int threads() const { return command_.threads > 0 ? command_.threads : hardware_threads(); }
+  int threads() const { return command_.threads > 0 ? command_.threads : this_machine().cores; }
   bool targets() const { return plan_.kind == StudyKind::target; }
   std::string command_text() const;
   TargetSetup target_setup() const;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/pi.h"
+#include "base/portable.h"
 #include "base/require.h"
 #include "base/state.h"
 #include "coupling/boundary.h"
@@ -42,7 +43,7 @@ fem::Grid tube_around(const dem::Shape &shape, double low, double high, const Sl
   require(s.elements_along >= 0, "sleeve: elements along must not be negative");
   require(high > low, "sleeve: its ends must lie apart");
   fem::Tube tube;
-  tube.inner_radius = shape.radius / std::cos(pi / s.elements_around);
+  tube.inner_radius = shape.radius / portable::cos(pi / s.elements_around);
   tube.thickness = s.thickness;
   tube.z_low = low;
   tube.height = high - low;

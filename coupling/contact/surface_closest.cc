@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/portable.h"
 #include "coupling/contact/surface_search.h"
 
 namespace platen::coupling {
@@ -279,7 +280,7 @@ Vector3 SurfaceSearch::vertex_normal(const SurfaceMesh &surface, int face, int c
       if (static_cast<std::size_t>(ring[i]) != v) continue;
       const Vector3 next = q[(i + 1) % 4] - q[i], last = q[(i + 3) % 4] - q[i], normal = cross(next, last);
       const double size = norm(normal);
-      if (size > 0) sum += (std::atan2(size, dot(next, last)) / size) * normal;
+      if (size > 0) sum += (portable::atan2(size, dot(next, last)) / size) * normal;
     }
   }
   const double size = norm(sum);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/portable.h"
 #include "dem/kernels/lane_mask.inc.h"
 #include "dem/laws/coulomb_friction.h"
 #include "dem/laws/rotating_plane.h"
@@ -46,7 +47,7 @@ PLATEN_INLINE Triple<Pack> spin_in_plane(const Triple<Pack> &vector, const Tripl
   if (!OfLanes::any(far)) return little;
   Pack cosine, sine;
   for (int l = 0; l < lanes; ++l)
-    cosine.v[l] = std::cos(angle.v[l]), sine.v[l] = std::sin(angle.v[l]);
+    cosine.v[l] = portable::cos(angle.v[l]), sine.v[l] = portable::sin(angle.v[l]);
   return choose<OfLanes>(far, scale(cosine, vector) + scale(sine, cross(normal, vector)), little);
 }
 

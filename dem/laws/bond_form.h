@@ -15,6 +15,7 @@
 #include <limits>
 
 #include "base/describe.h"
+#include "base/portable.h"
 
 namespace platen::dem {
 
@@ -208,7 +209,7 @@ struct BondStrength {
   explicit BondStrength(const Parameters &p)
       : tensile_strength(never_if_zero(p.tensile_strength)),
         shear_strength(never_if_zero(p.shear_strength)),
-        friction_coefficient(std::tan(p.friction_angle)) {}
+        friction_coefficient(portable::tan(p.friction_angle)) {}
 };
 
 // What several laws are given: described once.

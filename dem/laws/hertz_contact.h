@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/pi.h"
+#include "base/portable.h"
 #include "dem/laws/contact_settings.h"
 
 namespace platen::dem {
@@ -26,7 +27,7 @@ struct HertzContact {
     return 0.4 * coefficient * overlap * overlap * std::sqrt(overlap);
   }
   static double overlap_of_energy(double coefficient, double energy) {
-    return std::pow(2.5 * energy / coefficient, 0.4);
+    return portable::pow(2.5 * energy / coefficient, 0.4);
   }
   // Equal materials: 1/E* = 2 (1 - nu^2)/E, 1/R* = 1/R_i + 1/R_j.
   static double coefficient(const ContactSettings &s, double ri, double rj, const BondLayout & /*bonds*/) {
@@ -40,7 +41,7 @@ struct HertzContact {
   }
   // F = 2 sqrt(5/6) xi sqrt(k m*) v, which gives the restitution when it is not clamped.
   static double dashpot(const ContactSettings &s) {
-    const double logarithm = std::log(s.restitution);
+    const double logarithm = portable::log(s.restitution);
     return -std::sqrt(5.0 / 6.0) * logarithm / std::sqrt(logarithm * logarithm + pi * pi);
   }
   // For the time step: stiffness grows with the overlap; a reserve instead of a law.

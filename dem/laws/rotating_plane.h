@@ -2,6 +2,7 @@
 // plane. One text for one contact and for packs of them (lanes.h), which gives the same bits.
 #pragma once
 
+#include "base/portable.h"
 #include "base/vector3.h"
 #include "dem/laws/lanes.h"
 
@@ -48,7 +49,7 @@ PLATEN_INLINE Triple<Real> spun_a_little(const Triple<Real> &vector, const Tripl
 inline Vector3 spin_in_plane(const Vector3 &vector, const Vector3 &normal, double angle) {
   if (std::abs(angle) < spin_of_a_step)
     return vector_of(spun_a_little<OfScalars>(triple_of(vector), triple_of(normal), angle));
-  return std::cos(angle) * vector + std::sin(angle) * cross(normal, vector);
+  return portable::cos(angle) * vector + portable::sin(angle) * cross(normal, vector);
 }
 
 } // namespace platen::dem

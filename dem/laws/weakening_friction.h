@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/portable.h"
 #include "dem/laws/coulomb_friction.h"
 
 namespace platen::dem {
@@ -68,7 +69,7 @@ struct VelocityWeakeningFriction {
 
   double coefficient(double speed) const {
     return parameters.friction_dynamic + (parameters.friction_static - parameters.friction_dynamic) *
-                                             std::exp(-speed / parameters.slip_velocity);
+                                             portable::exp(-speed / parameters.slip_velocity);
   }
 
   // dt: s, the time that the stretch took.

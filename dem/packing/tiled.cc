@@ -90,7 +90,7 @@ Specimen tiled_close_packing(const Shape &shape, double mean, double spread, std
   made.whole.mean_radius = mean_radius(specimen);
   made.whole.packing_fraction = volume_of_spheres(specimen) / shape.volume();
   made.period = mean * tile.shape.height;
-  made.tiles = shape.volume() / std::pow(made.period, 3);
+  made.tiles = shape.volume() / (made.period * made.period * made.period);
   if (report) *report = made;
   return specimen;
 }

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/portable.h"
+
 namespace platen::fem {
 
 using Tensor = std::array<double, 9>; // 3 x 3, row by row
@@ -69,7 +71,7 @@ struct NeoHookean {
     return shear_modulus / (root * root);
   }
   double volume_energy(double j) const { // J/m^3
-    return 0.5 * bulk_modulus * (0.5 * (j * j - 1) - std::log(j));
+    return 0.5 * bulk_modulus * (0.5 * (j * j - 1) - portable::log(j));
   }
   double volume_stress(double j) const { return 0.5 * bulk_modulus * (j - 1 / j); }        // Pa, U'(J)
   double volume_modulus(double j) const { return 0.5 * bulk_modulus * (1 + 1 / (j * j)); } // Pa, U''(J)

@@ -67,6 +67,39 @@ TEST_F(Determinism, threads_change_no_byte) {
   }
 }
 
+// The C library is told to take the code of an older processor: with Weibull's strengths, Hertz's contacts
+// and restitution, friction that falls with speed, a platen that turns and a sleeve.
+TEST_F(Determinism, the_baseline_gives_the_same_bytes_on_an_older_processor) {
+  const auto entries = [](std::initializer_list<const char *> all) {
+    std::vector<std::string> options{"-s", "Integration/Instruction set = baseline"};
+    for (const char *entry : all)
+      options.insert(options.end(), {"-s", entry});
+    return options;
+  };
+  const std::pair<const char *, std::vector<std::string>> runs[] = {
+      {"scatter",
+       entries({"Bond/Strength scatter = weibull", "Bond/Weibull modulus = 6", "Effects/Contact = hertz",
+                "Contact/Young modulus = 40 GPa", "Contact/Poisson ratio = 0.2", "Contact/Restitution = 0.6",
+                "Bond/Friction angle = 33.3 degree", "Platens/Friction law = velocity weakening",
+                "Platens/Slip velocity = 0.05 m/s", "Platens/Top/Seat = spherical"})},
+      {"sleeve", entries({"Loading/Confinement = sleeve", "Loading/Confining pressure = 20 MPa",
+                          "Loading/Confining ramp = 0.1 ms", "Loading/Target strain = 0.004",
+                          "Sleeve/Thickness = 1 mm"})},
+      {"elastic",
+       entries({"Platens/Kind = deformable", "Platens/Motion = explicit", "Loading/Target strain = 0.004"})}};
+  for (const auto &[name, options] : runs) {
+    const std::string here = name, older = here + " older";
+    crush(here, "2", options);
+    ASSERT_EQ(setenv("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2", 1), 0);
+    crush(older, "2", options);
+    unsetenv("GLIBC_TUNABLES");
+    EXPECT_GT(summary_in(folder_ / here)["broken_tension"], 300) << name;
+    EXPECT_EQ(summary_in(folder_ / here)["instruction_set"], "baseline");
+    for (const char *file : {"history.csv", "cracks.csv"})
+      EXPECT_EQ(content_of(folder_ / here / file), content_of(folder_ / older / file)) << name;
+  }
+}
+
 TEST_F(Determinism, a_run_stopped_twice_ends_as_if_it_had_not_been) {
   crush("whole", "2");
   EXPECT_EQ(stop_at("stopped", 30, SIGHUP, {"-t", "1"}), 129);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 #include "apps/crushed.h"
@@ -97,6 +98,86 @@ TEST_F(Exact, a_simple_cubic_lattice_has_the_modulus_of_its_bonds) {
   };
   press("static", 1e-6, {"Loading/Start strain = 1e-4"});
   press("driven", 1e-4, {"Loading/Axial rate = 0.001 m/s", "Integration/Damping = 0.7"});
+}
+
+// A lattice without its inner 4 x 4 of 8 x 8 columns has the modulus of the whole one, over the section that
+// is there: over that of its box it is .75 of it, and no figure of the material.
+class Hollow : public Exact {
+protected:
+  static constexpr int wide = 8, high = 16;
+  void write_lattice(const std::function<bool(int, int, int)> &kept) const {
+    std::vector<Vector3> centres;
+    for (int z = 0; z < high; ++z)
+      for (int y = 0; y < wide; ++y)
+        for (int x = 0; x < wide; ++x)
+          if (kept(x, y, z))
+            centres.push_back(
+                {(2 * x + 1 - wide) * radius, (2 * y + 1 - wide) * radius, (2 * z + 1) * radius});
+    write("lattice.csv", box(2 * radius * wide, 2 * radius * high), centres);
+  }
+  static bool inner(int x, int y) { return x > 1 && x < 6 && y > 1 && y < 6; }
+  const std::vector<std::string> pressed{"Platens/Stiffness = 1", "Loading/Start strain = 1e-4"};
+  std::vector<std::string> with(const std::string &entry) const {
+    std::vector<std::string> all = pressed;
+    all.push_back(entry);
+    return all;
+  }
+};
+
+TEST_F(Hollow, a_hollow_lattice_has_the_modulus_of_a_whole_one_over_its_net_section) {
+  write_lattice([](int x, int y, int) { return !inner(x, y); });
+  const double exact = modulus * pi / 4, platens = exact * high / (high - 1 + 2);
+  const nlohmann::json net = run("exact_lattice.prm", "net", with("Specimen/Section = net"));
+  EXPECT_NEAR(net["youngs_modulus_gauge_pa"].get<double>() / exact, 1, 1e-6);
+  EXPECT_NEAR(net["youngs_modulus_platen_pa"].get<double>() / platens, 1, 1e-6);
+  EXPECT_EQ(net["validity"]["youngs_modulus_gauge_pa"], "valid");
+  EXPECT_EQ(net["section"]["over"], "net");
+  const double area = 4 * radius * radius * (wide * wide - 16);
+  EXPECT_NEAR(net["section"]["area_m2"].get<double>() / area, 1, 1e-9);
+  // The load is the same.
+  const nlohmann::json nominal = run("exact_lattice.prm", "nominal", pressed);
+  EXPECT_NEAR(last("nominal", "axial_stress_top_pa") / last("net", "axial_stress_top_pa"), 0.75, 1e-9);
+  EXPECT_NEAR(last("nominal", "time_s") / last("net", "time_s"), 1, 1e-9); // waves are as fast
+  EXPECT_EQ(nominal["section"]["over"], "nominal");
+  for (const char *share : {"filled_mean", "filled_least", "filled_largest"})
+    EXPECT_NEAR(nominal["section"][share].get<double>(), 0.75, 1e-9) << share;
+  for (const char *figure : {"youngs_modulus_gauge_pa", "youngs_modulus_platen_pa"}) {
+    EXPECT_TRUE(nominal[figure].is_null()) << figure;
+    const std::string why = nominal["validity"][figure].dump();
+    EXPECT_TRUE(contains(why, "fill 75.0 % of the shape's section, 75.0 to 75.0 % by height")) << why;
+    EXPECT_TRUE(contains(why, "Specimen/Section = net")) << why;
+  }
+  EXPECT_EQ(nominal["validity"]["poisson_ratio"], "valid"); // a ratio of strains
+}
+
+TEST_F(Hollow, a_section_that_changes_with_height_is_told_with_its_range_and_not_divided_by) {
+  write_lattice([](int x, int y, int z) { return !inner(x, y) || z < 5 || z > 10; });
+  const nlohmann::json s = run("exact_lattice.prm", "cave", pressed);
+  EXPECT_NEAR(s["section"]["filled_least"].get<double>(), 0.75, 0.01);
+  EXPECT_NEAR(s["section"]["filled_largest"].get<double>(), 1, 0.001);
+  EXPECT_TRUE(s["youngs_modulus_gauge_pa"].is_null());
+  const std::string why = s["validity"]["youngs_modulus_gauge_pa"].dump();
+  EXPECT_TRUE(contains(why, "to 100.0 % by height")) << why;
+  EXPECT_FALSE(contains(why, "Section = net")) << why;
+  std::vector<std::string> arguments{
+      test_scene("exact_lattice.prm"), "-o", "net", "-s", "Specimen/File = lattice.csv", "-s",
+      "Specimen/Section = net"};
+  const Outcome refused = run_compress(arguments, folder_);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(contains(refused.error, "Specimen/Section = net is not one: the spheres fill 75 to 100 %"))
+      << refused.error;
+  EXPECT_FALSE(fs::exists(folder_ / "net"));
+}
+
+// Its own section is what a specimen is judged by: nothing changes where it is filled.
+TEST_F(Exact, the_net_section_of_a_specimen_that_fills_its_shape_is_the_nominal_one) {
+  write("lattice.csv", cubic_box(), cubic_lattice());
+  const std::vector<std::string> begun{"Loading/Start strain = 1e-4"};
+  run("exact_lattice.prm", "nominal", begun);
+  const nlohmann::json s = run("exact_lattice.prm", "net", {begun[0], "Specimen/Section = net"});
+  EXPECT_EQ(s["section"]["over"], "nominal");
+  EXPECT_NEAR(s["section"]["filled_least"].get<double>(), 1, 1e-9);
+  EXPECT_EQ(content_of(folder_ / "nominal/history.csv"), content_of(folder_ / "net/history.csv"));
 }
 
 // All bonds along the load bear the same, those of one plane half the strength: they part together.

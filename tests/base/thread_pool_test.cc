@@ -2,6 +2,7 @@
 #include "base/thread_pool.h"
 
 #include <gtest/gtest.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <atomic>
@@ -218,6 +219,19 @@ TEST(thread_pool, at_once_does_each_piece_once) {
     EXPECT_EQ(one, std::vector<int>(3000, 100));
     EXPECT_EQ(other, std::vector<int>(3000, 200));
   }
+}
+
+// As `taskset` and batch systems limit it.
+TEST(hardware_threads, are_those_that_the_process_may_run_on) {
+  cpu_set_t before, one;
+  ASSERT_EQ(sched_getaffinity(0, sizeof before, &before), 0);
+  EXPECT_EQ(hardware_threads(), CPU_COUNT(&before));
+  CPU_ZERO(&one);
+  for (int core = 0; core < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++core)
+    if (CPU_ISSET(core, &before)) CPU_SET(core, &one);
+  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+  EXPECT_EQ(hardware_threads(), 1);
+  ASSERT_EQ(sched_setaffinity(0, sizeof before, &before), 0);
 }
 
 } // namespace

@@ -36,7 +36,10 @@ public:
     ++done.at(part);
     if (!particles.empty()) note("part " + std::to_string(part));
   }
-  void apply_forces(dem::Particles &, const Step &) override { note("apply"); }
+  void apply_forces(dem::Particles &, const Step &) override {
+    note("apply");
+    if (fails) throw std::runtime_error("no force");
+  }
   void finish(const Step &) override { note("finish"); }
   double power_on_machine() const override { return power; }
   bool follows_others() const override { return follows; }
@@ -51,7 +54,7 @@ public:
   void describe(Archive &) override {}
 
   std::size_t parts = 3;
-  bool follows = false, finite = true, stiffer = false;
+  bool follows = false, finite = true, stiffer = false, fails = false;
   std::vector<dem::GroundSpring> springs;
   double power = 0;
   StepLimit own;
@@ -119,6 +122,18 @@ struct ThreeAround { // three boundaries around a bonded cylinder at rest
     experiment.begin(std::make_unique<Program>(seen, std::move(stages)));
   }
 };
+
+TEST(experiment, forces_that_throw_on_the_way_to_a_start_leave_the_time_step) {
+  ThreeAround s;
+  s.begin();
+  const double chosen = s.experiment.time_step();
+  ASSERT_GT(chosen, 0);
+  ASSERT_LT(chosen, 1e-3);
+  const std::vector<Vector3> still(s.experiment.model.particles.size());
+  s.b.fails = true;
+  EXPECT_THROW(s.experiment.carry(still, {}, std::vector<Vector3>(3)), std::runtime_error);
+  EXPECT_EQ(s.experiment.time_step(), chosen);
+}
 
 TEST(experiment, a_step_has_one_order_and_followers_drift_last) {
   ThreeAround s;

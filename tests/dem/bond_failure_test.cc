@@ -62,6 +62,17 @@ TEST(bond_failure, the_packing_factor_is_forty_porosities_over_the_neighbours_of
   EXPECT_NEAR(packing_factor(s, layout), 40 * porosity / (4. / 3), 1e-12);
 }
 
+TEST(bond_failure, without_pairs_or_porosity_there_is_no_packing_factor) {
+  BondLayout layout;
+  layout.gap.value = 0.01;
+  Specimen apart = spheres({{0, 0, 0}, {3 * radius, 0, 0}});
+  apart.shape = box(10 * radius, 6 * radius, 8 * radius);
+  EXPECT_THROW(packing_factor(apart, layout), BadParameter);
+  Specimen full = spheres({{0, 0, 0}, {2 * radius, 0, 0}});
+  full.shape = box(2 * radius, 2 * radius, 2 * radius); // 8 R^3 for 8.4 R^3 of spheres
+  EXPECT_THROW(packing_factor(full, layout), BadParameter);
+}
+
 TEST(bond_failure, spheres_with_one_centre_cannot_be_bonded) {
   EXPECT_THROW(Model(spheres({{1, 2, 3}, {1, 2, 3}}), bonded()), std::invalid_argument);
 }

@@ -8,10 +8,18 @@
 #include <limits>
 
 #include "base/random.h"
+#include "base/rows.h"
 #include "dem/particles.h"
 
 namespace platen::dem {
 namespace {
+
+// Refused before any is looked at.
+TEST(CellGrid, more_spheres_than_an_int_counts_are_refused) {
+  EXPECT_THROW(near_pairs(nullptr, nullptr, std::size_t{1} << 31, 0), std::length_error);
+  EXPECT_THROW(require_rows(2147483648u), std::length_error);
+  EXPECT_NO_THROW(require_rows(2147483647u));
+}
 
 struct Cloud {
   std::vector<Vector3> centre;

@@ -51,6 +51,14 @@ TEST(strength_scatter, gives_the_same_numbers_for_a_seed_and_others_for_another)
     EXPECT_THROW(weibull_factors(1, {m, 1}), std::invalid_argument);
 }
 
+// Whatever the processor: three of a seed, to the bit, each step of the formula rounded once.
+TEST(strength_scatter, gives_the_same_bits_everywhere) {
+  const std::vector<double> of = weibull_factors(1000, {8, 3});
+  EXPECT_EQ(of[0], 0x1.0e0a51933e3bdp+0);
+  EXPECT_EQ(of[2], 0x1.d22cf41ffdd7ep-1);
+  EXPECT_EQ(of[999], 0x1.c9e4850c1c4aap-1);
+}
+
 TEST(strength_scatter, that_is_off_has_no_column) {
   EXPECT_EQ(Model(row(3, {1, 0, 0}), breakable()).bonds->strength_factor, nullptr);
 }

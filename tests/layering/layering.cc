@@ -37,6 +37,19 @@ const std::regex &file_opening() {
   return words;
 }
 
+// Functions whose code the C library chooses by the processor: base/portable.h has those that give the same
+// bits on all. Measures may use them: no step of a run depends on these.
+const std::regex &of_processor() {
+  static const std::regex words(R"(\bstd::(a?(sin|cos|tan)h?|atan2|exp|exp2|expm1|log|log2|log10|log1p|pow)"
+                                R"(|[tl]gamma|erfc?|fma)\s*\()");
+  return words;
+}
+
+bool is_measure(const std::string &file) {
+  return file.rfind("dem/measure/", 0) == 0 || file == "dem/packing/quality.cc" ||
+         file == "dem/packing/direction_cells.cc";
+}
+
 // Callers of dist/ need MPI alone to compile.
 const std::regex &of_partitioner() {
   static const std::regex words("^(Zoltan|zoltan)");
@@ -111,6 +124,10 @@ std::vector<Violation> check_source(const std::string &folder, const std::string
       violations.push_back({file, number, folder + "/ must not open files: " + line});
     }
   }
+  std::istringstream code(code_only(text));
+  for (int number = 1; std::getline(code, line); ++number)
+    if (!is_measure(file) && std::regex_search(line, match, of_processor()))
+      violations.push_back({file, number, match.str() + ") differs by processor: base/portable.h"});
   std::istringstream literals(without_comments(text));
   for (int number = 1; std::getline(literals, line); ++number)
     if (std::regex_search(line, match, scene_entry()))

@@ -1,5 +1,6 @@
 // Reads sources and reports what breaks the layers: which folder may include what, that numerics opens no
-// file, and that it names no entry of a scene file.
+// file, that it names no entry of a scene file, and that it calls no function of the C library that differs
+// by processor.
 #pragma once
 
 #include <filesystem>

@@ -73,6 +73,19 @@ TEST(Layering, numerics_may_not_open_a_file) {
       EXPECT_EQ(faults(folder, std::string(statement) + "\n"), 1u) << folder << ": " << statement;
 }
 
+TEST(Layering, a_function_that_differs_by_processor_is_left_to_measures) {
+  for (const char *call : {"std::exp(x)", "std::pow(x, 2)", "std::sin (x)", "std::acos(x)",
+                           "std::atan2(y, x)", "std::tgamma(x)", "std::log(x)", "std::tanh(x)"}) {
+    const std::string text = std::string("const double y = ") + call + ";\n";
+    for (const char *folder : {"base", "dem", "dist", "fem", "coupling"})
+      EXPECT_EQ(faults(folder, text), 1u) << folder << ": " << call;
+    EXPECT_EQ(check_source("dem", "dem/measure/cone.cc", text).size(), 0u);
+    EXPECT_EQ(faults("apps", text), 0u);
+  }
+  for (const char *call : {"std::sqrt(x)", "std::cbrt(x)", "portable::exp(x)", "std::abs(x)", "loss.cos(x)"})
+    EXPECT_EQ(faults("dem", std::string(call) + ";\n"), 0u) << call;
+}
+
 TEST(Layering, the_library_names_no_entry_of_a_scene) {
   for (const char *folder : {"base", "dem", "dist", "fem", "coupling"}) {
     EXPECT_EQ(faults(folder, "throw Bad(\"try a smaller Loading/Axial rate\");\n"), 1u) << folder;
