@@ -2,6 +2,7 @@
 // and every column of a sample, without a step between.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -22,8 +23,6 @@ struct Case {
   std::vector<std::string> overrides;
   std::vector<std::string> moves; // columns that are not zero in it
 };
-
-const std::vector<std::string> coarse{"Specimen/Sphere radius = 1.5 mm", "Expect/pattern ="};
 
 // Of every part that keeps a number between steps, one.
 const std::vector<Case> cases{
@@ -108,8 +107,9 @@ TEST_P(ToldAfterRead, is_what_was_told_before) {
     const HistoryColumn &column = history_columns()[k];
     const double told = value_of(before, k), now = value_of(after, k);
     EXPECT_TRUE(same(told, now)) << column.name << ": " << told << " before, " << now << " after";
-    if (std::count(of.moves.begin(), of.moves.end(), column.name) > 0)
+    if (std::count(of.moves.begin(), of.moves.end(), column.name) > 0) {
       EXPECT_NE(told, 0) << column.name << ": shows nothing";
+    }
   }
   for (const coupling::Side side : coupling::all_sides) {
     const coupling::Platen *one = run.platen(side), *other = read.platen(side);
