@@ -70,7 +70,7 @@ std::string words_of_misses(const coupling::PlatenTest &problem, std::size_t sta
     return fmt::format("stage {} did not settle in its time: {}; a longer Hold gives it more", stage + 1,
                        fmt::join(words, ", "));
   if (words.empty()) return "";
-  return fmt::format("stage {} ended by {} before it had reached what it asked: {}", stage + 1, by,
+  return fmt::format("stage {} (ended by: {}) has not reached what it asked: {}", stage + 1, by,
                      fmt::join(words, ", "));
 }
 

@@ -19,7 +19,7 @@ Json controls_of_stage(const coupling::PlatenTest &problem, std::size_t stage);
 // Adds `controls`, the same of all stages with their names, to a test whose scene writes none.
 void add_controls(Json &to, const coupling::PlatenTest &problem);
 
-// Of a stage that has ended: "stage 1 ended by time before it had reached what it asked: top stress 3.42 of 5
+// Of a stage that has ended: "stage 1 (ended by: time) has not reached what it asked: top stress 3.42 of 5
 // MPa"; empty where all was met.
 std::string words_of_misses(const coupling::PlatenTest &problem, std::size_t stage);
 // Whether the specimen had its peak in that stage: after it, it need not bear what is asked.

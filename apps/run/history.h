@@ -24,10 +24,11 @@ struct Sample {
   double lateral_extremal = 0, axial_extremal = 0; // Tannu's pairs of outermost particles
   double stress_top = 0, stress_bottom = 0;        // Pa
   double confining_pressure = 0;                   // Pa, that acts: of a cell or on a wall
-  double confined_share = 0;                       // of the lateral surface that a cell loads
-  double cell_pressure = 0;                        // Pa, of a cell alone
-  double sleeve_volumetric_strain = 0;             // of the volume within a sleeve
-  double sleeve_deviator = 0;                      // Pa, axial, over the specimen's area
+  // Of the lateral surface that a cell loads.
+  double confined_share = std::numeric_limits<double>::quiet_NaN();
+  double cell_pressure = 0;            // Pa, of a cell alone
+  double sleeve_volumetric_strain = 0; // of the volume within a sleeve
+  double sleeve_deviator = 0;          // Pa, axial, over the specimen's area
   double intact_bonds = 0, broken_tension = 0, broken_shear = 0;
   double kinetic = 0, bond = 0, contact = 0, body = 0, damping = 0, friction = 0, fracture = 0, boundary = 0,
          plastic = 0;        // J

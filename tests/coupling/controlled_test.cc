@@ -144,7 +144,7 @@ TEST(controlled, what_is_not_finite_is_not_met) {
     c.asked = asked, c.reached = reached, c.whole = whole;
     return c.is_met();
   };
-  EXPECT_TRUE(met(1, 1.01, 1));
+  EXPECT_TRUE(met(1, 1.009, 1));
   EXPECT_FALSE(met(none, none, none));
   EXPECT_FALSE(met(1, none, 1));
   EXPECT_FALSE(met(endless, endless, endless));
