@@ -55,7 +55,7 @@ protected:
   std::string warnings_;
 };
 
-// The servo goes no faster than the axial rate: 1 ms is too short for 5 MPa, half of it would do for 2.
+// The servo goes no faster than the axial rate: 1 ms is too short for 5 MPa, 2 ms do for one.
 TEST_F(Controls, a_stress_that_was_not_reached_is_told_and_speaks_against_figures) {
   const std::vector<std::string> common{"Platens/Top/Control = stress", "Loading/Ramp = 1 ms",
                                         "Loading/Axial rate = 0.02 m/s", "Loading/Target strain = 0.001"};
@@ -72,8 +72,8 @@ TEST_F(Controls, a_stress_that_was_not_reached_is_told_and_speaks_against_figure
   EXPECT_EQ(told["stage"], "stress");
   EXPECT_EQ(told["asked"], 5e6);
   EXPECT_NEAR(told["reached"].get<double>() / column("missed", "axial_stress_top_pa").back(), 1, 0.05);
-  EXPECT_LT(told["reached"], 4.5e6);
-  EXPECT_TRUE(contains(warnings_, "stage 1 ended by time before it had reached what it asked: top stress "))
+  EXPECT_LT(told["reached"], 4.9e6);
+  EXPECT_TRUE(contains(warnings_, "stage 1 (ended by: time) has not reached what it asked: top stress "))
       << warnings_;
   EXPECT_TRUE(contains(warnings_, " of 5 MPa")) << warnings_;
   for (const char *figure : {"strength_pa", "youngs_modulus_gauge_pa", "youngs_modulus_platen_pa"}) {
@@ -82,29 +82,34 @@ TEST_F(Controls, a_stress_that_was_not_reached_is_told_and_speaks_against_figure
         << figure;
   }
 
-  const nlohmann::json met = press_lattice("met", with("1 MPa"));
+  std::vector<std::string> longer = with("1 MPa");
+  longer.emplace_back("Loading/Hold = 1 ms");
+  const nlohmann::json met = press_lattice("met", longer);
   EXPECT_EQ(met["ended_by"], "target");
   expect_control(met["controls"][0], "stress", "top", "Pa", true);
-  EXPECT_FALSE(contains(warnings_, "had reached what it asked")) << warnings_;
+  EXPECT_FALSE(contains(warnings_, "not reached what it asked")) << warnings_;
   EXPECT_FALSE(speaks_against(met, "youngs_modulus_platen_pa", "has not reached"));
 }
 
 // In series with a spring as stiff as the specimen the faces close half as fast as the machine.
 TEST_F(Controls, the_rate_behind_a_machines_spring_is_told) {
-  const nlohmann::json rigid = press_lattice("rigid", {});
+  const std::vector<std::string> slow{"Platens/Stiffness = 1", "Loading/Axial rate = 0.002 m/s",
+                                      "Integration/Damping = 0.7"};
+  const nlohmann::json rigid = press_lattice("rigid", slow);
   EXPECT_EQ(rigid["ended_by"], "target");
   ASSERT_EQ(rigid["controls"].size(), 1u);
   expect_control(rigid["controls"][0], "rate", "axial", "m/s", true);
   EXPECT_EQ(rigid["controls"][0]["stage"], "compression");
   const double asked = rigid["controls"][0]["asked"];
   EXPECT_NEAR(asked, rigid["controls"][0]["reached"], 1e-9 * asked);
-  EXPECT_LT(asked, 0.01); // for it begins smoothly
-  EXPECT_GT(asked, 0.005);
+  EXPECT_LT(asked, 0.002); // for it begins smoothly
+  EXPECT_GT(asked, 0.0015);
 
   const double stiffness = rigid["youngs_modulus_platen_pa"].get<double>() * 0.008 * 0.008 / 0.016; // N/m
-  const nlohmann::json soft =
-      press_lattice("soft", {"Platens/Machine stiffness = " + std::to_string(stiffness),
-                             "Platens/Machine mass = 0.001", "Loading/Axial rate = 0.002 m/s"});
+  std::vector<std::string> on_spring = slow;
+  on_spring.push_back("Platens/Machine stiffness = " + std::to_string(stiffness));
+  on_spring.emplace_back("Platens/Machine mass = 0.002");
+  const nlohmann::json soft = press_lattice("soft", on_spring);
   expect_control(soft["controls"][0], "rate", "axial", "m/s", false);
   EXPECT_NEAR(soft["controls"][0]["reached"].get<double>() / soft["controls"][0]["asked"].get<double>(), 0.5,
               0.05);
@@ -133,15 +138,15 @@ TEST_F(Controls, a_triaxial_test_tells_its_pressure) {
                             pressure = column("run", "confining_pressure_pa");
   for (std::size_t k = 0; k < share.size(); ++k) {
     ASSERT_LE(share[k], 1) << k;
-    ASSERT_GT(share[k], 0.9) << k;
+    ASSERT_GT(share[k], 0.8) << k;
     ASSERT_LE(pressure[k], 3e6 * share[k] * (1 + 1e-12)) << k;
   }
   EXPECT_EQ(share.front(), 1);
   EXPECT_EQ(s["controls"][3]["reached"], pressure.back());
 }
 
-// A specimen that bears nothing crumbles when the cell presses it: then nothing is pressed.
-TEST_F(Controls, a_pressure_that_acts_on_nothing_is_none) {
+// A specimen that bears hardly anything loses its skin when the cell presses it.
+TEST_F(Controls, a_pressure_that_acts_on_a_part_is_told_and_speaks_against_figures) {
   const Outcome outcome = run_compress(
       {test_scene("crushed.prm"), "-o", "run", "-s", "Output/Fields = off", "-s",
        "Loading/Confinement = particles", "-s", "Loading/Confining pressure = 3 MPa", "-s",
@@ -156,17 +161,16 @@ TEST_F(Controls, a_pressure_that_acts_on_nothing_is_none) {
                             top = column("run", "axial_stress_top_pa"),
                             bottom = column("run", "axial_stress_bottom_pa");
   EXPECT_EQ(share.front(), 1);
-  EXPECT_EQ(share.back(), 0);
-  EXPECT_EQ(pressure.back(), 0);
-  EXPECT_EQ(deviator.back(), 0.5 * (top.back() + bottom.back()));
-  EXPECT_EQ(s["confining_pressure_pa"], 0);
+  EXPECT_LT(share.back(), 0.9);
+  EXPECT_DOUBLE_EQ(pressure.back(), 3e6 * share.back());
+  EXPECT_DOUBLE_EQ(deviator.back(), 0.5 * (top.back() + bottom.back()) - pressure.back());
+  EXPECT_EQ(s["confining_pressure_pa"], pressure.back());
   expect_control(s["controls"][0], "pressure", "lateral", "Pa", false);
-  EXPECT_TRUE(contains(outcome.error, "lateral pressure 0 of 3 MPa")) << outcome.error;
+  EXPECT_TRUE(contains(outcome.error, "has not reached what it asked: lateral pressure ")) << outcome.error;
   EXPECT_TRUE(contains(s["ended_by"].get<std::string>(), "lateral pressure of stage 1")) << s["ended_by"];
   for (const char *figure : {"strength_pa", "deviator_strength_pa"}) {
     EXPECT_TRUE(s[figure].is_null());
-    EXPECT_TRUE(
-        speaks_against(s, figure, "the pressure loaded 0 % of the lateral surface then, 90 % at least"))
+    EXPECT_TRUE(speaks_against(s, figure, "of the lateral surface then, 90 % at least"))
         << s["validity"][figure];
   }
 }
@@ -216,8 +220,7 @@ TEST_F(Controls, a_specimen_that_fails_is_no_stress_that_was_missed) {
   EXPECT_EQ(s["peak_reached"], true);
   EXPECT_EQ(s["validity"]["strength_pa"], "valid");
   const std::string log = content_of(folder_ / "run/run.log");
-  EXPECT_TRUE(
-      contains(log, "stage 1 ended by share of peak before it had reached what it asked: axial stress"))
+  EXPECT_TRUE(contains(log, "stage 1 (ended by: share of peak) has not reached what it asked: axial stress"))
       << log;
   EXPECT_TRUE(contains(log, "(the specimen failed in it)")) << log;
 }
