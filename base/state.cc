@@ -86,7 +86,8 @@ std::string difference_of_rows(const std::string &name, const BlockType &type, c
          unit;
 }
 
-// "finite, > 0 kg", "0 ... 599", "unit length", "finite, or nan".
+// "finite" is what has a finite square, too (Allowed::largest). "finite, > 0 kg", "0 ... 599", "unit length",
+// "finite, or nan".
 std::string words_of(const Allowed &allowed, const BlockType &type) {
   if (allowed.length == Allowed::Length::one) return "a row of length 1";
   if (allowed.length == Allowed::Length::one_or_none) return "a row of length 1, or of zeros";

@@ -141,8 +141,9 @@ bool is_positive(const std::string &name) {
 }
 // What may be unknown: not reached, or not there.
 bool may_be_nan(const std::string &name) {
-  return is_any(name, {"_at_end", "/found", "/largest", "/zero", "/zero_x", "/zero_y", "/zero_z",
-                       "closure_at_begin", "strain_of_turn", "strain_found"});
+  return is_any(
+      name, {"_at_end", "/found", "/largest", "/zero", "/zero_x", "/zero_y", "/zero_z", "closure_at_begin",
+             "strain_of_turn", "strain_found", "/break_time"}); // of a bond that holds
 }
 
 // The state with one number in place of that at `place` in the block.
@@ -225,7 +226,7 @@ TEST(wrong_state, no_number_of_any_block_is_believed_that_cannot_be) {
       ++blocks;
       const bool floating = block.type.kind == BlockType::Kind::floating;
       std::vector<double> values{-1, 0, 1000000};
-      if (floating) values.insert(values.end(), {1e300, -1e300, std::nan(""), infinite, -infinite});
+      if (floating) values.insert(values.end(), {1e300, 1e90, std::nan(""), infinite, -infinite});
       const std::size_t row = block.rows / 2;
       for (std::size_t k = 0; k < std::min<std::size_t>(block.type.numbers, 4); ++k)
         for (const double value : values) {
@@ -233,7 +234,8 @@ TEST(wrong_state, no_number_of_any_block_is_believed_that_cannot_be) {
           const std::string why =
               refusal(other, with_number(good, name, row * block.type.numbers + k, value));
           const bool must = (floating && !std::isfinite(value) && !may_be_nan(name)) || std::isinf(value) ||
-                            (is_row_number(name) && value != 0) || (is_positive(name) && value <= 0) ||
+                            value == 1e300 || (is_row_number(name) && value != 0) ||
+                            (is_positive(name) && value <= 0) ||
                             (is_any(name, {"/orientation", "/rotation"}) && std::abs(value) > 1) ||
                             ends_with(name, "/version");
           // A version is that of its part.

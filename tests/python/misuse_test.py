@@ -176,10 +176,10 @@ class Arguments(InFolder):
                 platen.Experiment(CRUSHED, set=entries, output=self.folder / "none")
 
     def test_values_of_numpy_are_values(self):
-        values = {**SMALL, "Specimen/Radius": numpy.float64(4e-3), "Effects/Rotation": numpy.bool_(True), "Scene/Seed": numpy.int64(3)}
+        values = {**SMALL, "Contact/Friction": numpy.float64(0.25), "Effects/Rotation": numpy.bool_(True), "Output/Every": numpy.int64(30)}
         with platen.Experiment(CRUSHED, set=values, output=self.folder / "numpy") as experiment:
             text = Path(experiment.folder, "scene.prm").read_text()
-        self.assertRegex(text, r"set Seed\s*= 3\n")
+        self.assertRegex(text, r"set Every\s*= 30\n")
 
     def test_arguments_of_an_experiment(self):
         for name, values in {"scene": NO_PATHS, "output": NO_PATHS, "threads": (*NO_NUMBERS, 0, -1, 1.5, None),
