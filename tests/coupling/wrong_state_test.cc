@@ -294,7 +294,7 @@ TEST(wrong_state, rows_that_do_not_go_together_are_refused) {
   EXPECT_EQ(told("specimen/particles/mass", 7, -1),
             "\"state/specimen/particles/mass\", row 7: -1. Allowed: finite, > 0 kg.");
   EXPECT_EQ(told("specimen/particles/orientation", 28, 1e6),
-            "\"state/specimen/particles/orientation\", row 7: length 1000000. Allowed: a row of length 1.");
+            "\"state/specimen/particles/orientation\", row 7: length 1e6. Allowed: a row of length 1.");
   EXPECT_TRUE(same_state(PlatenTest(cylinder(), crushing()), other)); // all of them left it alone
 }
 
