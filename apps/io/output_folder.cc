@@ -84,7 +84,8 @@ std::string OutputPaths::frame_of_pieces(const std::string &series, int index) {
 bool is_output_name(const fs::path &relative) {
   static const std::regex top(
       "((scene|found)(\\.part)?\\.prm"
-      "|(history|cracks|events|bonds|bond_stress|directions|specimen|study|plan|costs|accuracy|comparisons|trials|abacus"
+      "|(history|cracks|events|bonds|bond_stress|directions|specimen|study|plan|costs|accuracy|comparisons|"
+      "trials|abacus"
       "|packing_([a-z0-9_.]+_)?[0-9]+)(\\.part)?\\.csv"
       "|packings(\\.part)?\\.sha256"
       "|(summary|study|plan)(\\.part)?\\.json|run\\.log|(specimen|cracks)(\\.part)?\\.vtu"

@@ -60,12 +60,14 @@ std::vector<std::string> sources_in(const Json &comparisons) {
   return lines;
 }
 
-// Ratios outside what laboratories measured, and those that the bonds are not calibrated for: the first remarks.
+// Ratios outside what laboratories measured, and those that the bonds are not calibrated for: the first
+// remarks.
 void add_verdicts(const Json &comparisons, StudyResults &results) {
   for (std::size_t k = 0; k < results.ratios.size(); ++k) {
     const StudiedRatio &ratio = results.ratios[k];
     const StudiedCase &of = results.cases[ratio.of];
-    const std::string what = fmt::format("{}, {}, height/width {:.3g}", ratio.effect, of.surface, of.slenderness);
+    const std::string what =
+        fmt::format("{}, {}, height/width {:.3g}", ratio.effect, of.surface, of.slenderness);
     if (ratio.outside)
       results.remarks.push_back(fmt::format("outside the laboratory's range: {}: {}, laboratory {}, {}", what,
                                             words(ratio.ratio, 3), ratio.laboratory,

@@ -66,10 +66,11 @@ std::string CompressionRun::description() const {
   text += text_of(specimen_state_);
   if (const SizeCorrection &size = scene_.bond.size; size.reference > 0 && size.corrects()) {
     const double share = size.share(scene_.specimen);
-    text += fmt::format("  bonds for spheres of {:.4g} times the calibrated radius{}: modulus x {:.4f}, "
-                        "strengths x {:.4f}\n",
-                        share, size.by_width() ? " over the width" : "",
-                        std::pow(share, size.modulus_exponent), std::pow(share, size.strength_exponent));
+    text += fmt::format(
+        "  bonds for spheres of {:.4g} times the calibrated radius{}: modulus x {:.4f}, "
+        "strengths x {:.4f}\n",
+        share, size.by_width() ? " over the width" : "", std::pow(share, size.modulus_exponent),
+        std::pow(share, size.strength_exponent));
   }
   std::vector<std::string> seats;
   for (const coupling::Side side : coupling::all_sides)

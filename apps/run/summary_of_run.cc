@@ -201,11 +201,11 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
   s["coordination_number"] = problem.coordination_number();
   s["packing_fraction"] = problem.facts().packing_fraction;
   s["mean_radius_m"] = problem.facts().mean_radius;
-  s["section"] = figures_of_section(problem);
   if (const Tiling tiling = tiling_of(scene, problem.shape()); tiling.tiles > 0) {
     s["tiles"] = tiling.tiles;
     s["tile_period_m"] = tiling.period;
   }
+  s["section"] = figures_of_section(problem);
   s["grain_density_kg_m3"] = problem.facts().grain_density;
   s["seated_top"] = problem.top().layer().seats();
   s["seated_bottom"] = problem.bottom().layer().seats();

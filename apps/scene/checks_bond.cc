@@ -43,12 +43,12 @@ void SceneCheck::size_correction() const {
   if (share >= SizeCorrection::least_share && share <= SizeCorrection::most_share) return;
   if (size.by_width()) {
     const double across = size.reference_width / (2 * size.reference);
-    return refuse("Bond/Calibrated width",
-                  fmt::format("with Calibrated radius = {} is for {:.3g} spheres across, and the specimen has "
-                              "{:.3g} across its least width. Allowed: {:.3g} to {:.3g}.",
-                              parameters_.at("Bond/Calibrated radius").text, across,
-                              width / (2 * radius), across / SizeCorrection::most_share,
-                              across / SizeCorrection::least_share));
+    return refuse(
+        "Bond/Calibrated width",
+        fmt::format("with Calibrated radius = {} is for {:.3g} spheres across, and the specimen has "
+                    "{:.3g} across its least width. Allowed: {:.3g} to {:.3g}.",
+                    parameters_.at("Bond/Calibrated radius").text, across, width / (2 * radius),
+                    across / SizeCorrection::most_share, across / SizeCorrection::least_share));
   }
   refuse("Bond/Calibrated radius",
          "is too far from Specimen/Sphere radius = " + parameters_.at("Specimen/Sphere radius").text +

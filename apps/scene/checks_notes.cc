@@ -62,16 +62,15 @@ void SceneCheck::size_note() {
   const double share = size.share(scene_.specimen);
   if (!(size.reference > 0) || size.corrects() || !(std::abs(share - 1) > same)) return;
   const Entry &radius = parameters_.at("Specimen/Sphere radius");
-  scene_.notes.push_back(radius.origin.text() + ": note: " + radius.path + " = " + radius.text + " is " +
-                         fmt::format("{:.3g}", share) + " times that of the calibration, " +
-                         set_to("Bond/Calibrated radius") +
-                         (size.by_width() ? " over " + set_to("Bond/Calibrated width") +
-                                                fmt::format(" ({:.3g} spheres across the least width for {:.3g})",
-                                                            0.5 * scene_.specimen.width() /
-                                                                scene_.specimen.sphere_radius,
-                                                            0.5 * size.reference_width / size.reference)
-                                          : "") +
-                         ", and no exponent corrects the bonds for it: E and strengths differ.");
+  scene_.notes.push_back(
+      radius.origin.text() + ": note: " + radius.path + " = " + radius.text + " is " +
+      fmt::format("{:.3g}", share) + " times that of the calibration, " + set_to("Bond/Calibrated radius") +
+      (size.by_width() ? " over " + set_to("Bond/Calibrated width") +
+                             fmt::format(" ({:.3g} spheres across the least width for {:.3g})",
+                                         0.5 * scene_.specimen.width() / scene_.specimen.sphere_radius,
+                                         0.5 * size.reference_width / size.reference)
+                       : "") +
+      ", and no exponent corrects the bonds for it: E and strengths differ.");
 }
 
 // A specimen from a file brings its own.

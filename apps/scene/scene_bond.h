@@ -36,8 +36,10 @@ struct SizeCorrection {
       "Mean radius of the spheres that the bonds are calibrated for; 0: bonds are as they are given for "
       "spheres of any size.");
     v("calibrated_width", p.reference_width, "m", at_least(0),
-      "Least width of the specimen that the bonds are calibrated in. Where it is given, Calibrated radius over "
-      "it counts, and Specimen/Sphere radius over the specimen's least width: spheres across decide. 0: radii "
+      "Least width of the specimen that the bonds are calibrated in. Where it is given, Calibrated radius "
+      "over "
+      "it counts, and Specimen/Sphere radius over the specimen's least width: spheres across decide. 0: "
+      "radii "
       "are compared as they are.");
     v("modulus_exponent", p.modulus_exponent, "1", between(-1, 1),
       "Bond/Modulus is multiplied by (Specimen/Sphere radius over Calibrated radius) to this power; both "

@@ -21,13 +21,11 @@ enum class CalibratedFigure {
   slenderness, // strength of a short specimen over that of a slender one
   secant_ratio // Poisson's ratio to 40 % of the strength, where bonds have broken already
 };
-inline const Words<CalibratedFigure> calibrated_figures{{"elastic", CalibratedFigure::elastic},
-                                                        {"compression", CalibratedFigure::compression},
-                                                        {"confined", CalibratedFigure::confined},
-                                                        {"tension", CalibratedFigure::tension},
-                                                        {"friction", CalibratedFigure::friction},
-                                                        {"slenderness", CalibratedFigure::slenderness},
-                                                        {"secant ratio", CalibratedFigure::secant_ratio}};
+inline const Words<CalibratedFigure> calibrated_figures{
+    {"elastic", CalibratedFigure::elastic},          {"compression", CalibratedFigure::compression},
+    {"confined", CalibratedFigure::confined},        {"tension", CalibratedFigure::tension},
+    {"friction", CalibratedFigure::friction},        {"slenderness", CalibratedFigure::slenderness},
+    {"secant ratio", CalibratedFigure::secant_ratio}};
 
 struct CalibratedFor {
   std::optional<PackingKind> packing;    // none: nothing is said

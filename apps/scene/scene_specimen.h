@@ -41,9 +41,7 @@ struct SpecimenSection {
     return !std::isnan(radius);
   } // cross-section: circle of `radius`, else width_x x width_y
   // m, the least across its axis; NaN where it is not given.
-  double width() const {
-    return shape == SpecimenShape::box ? std::min(width_x, width_y) : 2 * radius;
-  }
+  double width() const { return shape == SpecimenShape::box ? std::min(width_x, width_y) : 2 * radius; }
 };
 
 struct Effects { // the others stand in dem::ModelSettings, ContactSettings and Bond

@@ -26,11 +26,12 @@ void declare_calibrated(Section &section, CalibratedFor &calibrated) {
   std::vector<std::string> words;
   for (const auto &one : calibrated_figures)
     words.push_back(one.first);
-  section.value("Calibrated figures", calibrated.figures, "",
-                "with commas between them, any of " + joined(words), read_calibrated_figures,
-                "What the bonds are calibrated on: strengths, damage and moduli of other tests are null in "
-                "summary.json, with this reason; without friction or slenderness so are the ratios of studies "
-                "that need it, without secant ratio Poisson's ratio. Empty: nothing is said.");
+  section.value(
+      "Calibrated figures", calibrated.figures, "", "with commas between them, any of " + joined(words),
+      read_calibrated_figures,
+      "What the bonds are calibrated on: strengths, damage and moduli of other tests are null in "
+      "summary.json, with this reason; without friction or slenderness so are the ratios of studies "
+      "that need it, without secant ratio Poisson's ratio. Empty: nothing is said.");
 }
 
 } // namespace

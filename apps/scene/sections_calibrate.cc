@@ -63,12 +63,13 @@ void declare_target(Parameters &parameters, TargetSection &to, std::size_t numbe
   Section section(parameters, section_of_target(number));
   const std::string kind = section.name() + "/Kind";
   section
-      .entry("Kind", to.kind, target_kinds,
-             "What is wanted. Young modulus and Poisson's ratio of the specimen's middle; tension between "
-             "glued ends; splitting of a disc as thick as its radius; gain by friction: strength over that "
-             "between the other platens; slenderness: strength over that of a specimen twice as high as wide, "
-             "between the same platens; secant ratio: Poisson's ratio to 40 % of the strength; curve: "
-             "stresses of a test of the user's own.")
+      .entry(
+          "Kind", to.kind, target_kinds,
+          "What is wanted. Young modulus and Poisson's ratio of the specimen's middle; tension between "
+          "glued ends; splitting of a disc as thick as its radius; gain by friction: strength over that "
+          "between the other platens; slenderness: strength over that of a specimen twice as high as wide, "
+          "between the same platens; secant ratio: Poisson's ratio to 40 % of the strength; curve: "
+          "stresses of a test of the user's own.")
       .alike(first);
   section.text("Value", to.value, "The number wanted, with its unit.").alike(first);
   parameters.declared(section.name() + "/Value").is_text = false; // read as a number when its kind is known

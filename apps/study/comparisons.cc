@@ -60,7 +60,7 @@ constexpr const char *cores = "ASTM C42, a factor without scatter: 5 % to both s
 LaboratoryFigure of_cores(double slenderness, double factor, const char *source = cores) {
   const double ratio = 1 / factor;
   return {PlatenEffect::relative_strength, false, slenderness, ratio, (1 - same_core) * ratio,
-          (1 + same_core) * ratio, source};
+          (1 + same_core) * ratio,         source};
 }
 
 std::vector<LaboratoryFigure> all_figures() {

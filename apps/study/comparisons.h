@@ -41,7 +41,9 @@ struct Comparison {
   const LaboratoryFigure *laboratory = nullptr; // null: none is known
   std::string reason = {};                      // why there is no ratio; "" where the bonds may have one
   // Whether the mean lies outside what laboratories measured; not where either is missing.
-  bool outside() const { return laboratory != nullptr && ratio.count() > 0 && !laboratory->holds(ratio.mean()); }
+  bool outside() const {
+    return laboratory != nullptr && ratio.count() > 0 && !laboratory->holds(ratio.mean());
+  }
 };
 
 // Strengths of all runs of a study of platens (Pa; NaN: failed or never peaked), by case, then by seed. Ends

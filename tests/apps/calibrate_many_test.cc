@@ -110,7 +110,8 @@ TEST(ManyTargets, eight_parameters_of_a_manufactured_response_are_recovered) {
     EXPECT_NEAR(a.correlations(knob, knob), 1, 1e-9);
 }
 
-// One run of the scene's cylinder serves its strength, its secant ratio and what a short one is compared with.
+// One run of the scene's cylinder serves its strength, its secant ratio and what a short one is compared
+// with.
 TEST(ManyTargets, a_short_specimen_is_compared_with_one_twice_as_high_as_wide) {
   Scene scene = yielding_scene();
   scene.specimen.radius = 0.025, scene.specimen.height = 0.1;

@@ -116,9 +116,10 @@ TEST_F(Physics, a_test_that_was_too_fast_says_so_and_a_slow_one_does_not) {
   EXPECT_NEAR(fast["inertial_number_max"].get<double>() / slow["inertial_number_max"].get<double>(), 6, 1.5);
 }
 
-// Brittle bonds have a fracture energy in proportion to the radius, so that no length is left in the material:
-// twice as large a specimen of spheres twice as large, closed as fast, takes twice as long and has the same
-// stresses. Powers of two change no digit, so that both break the same bonds, whatever the chaos after them.
+// Brittle bonds have a fracture energy in proportion to the radius, so that no length is left in the
+// material: twice as large a specimen of spheres twice as large, closed as fast in steps twice as long, has
+// the same stresses. Powers of two change no digit, so that both break the same bonds: equal to the bit.
+// (Left to itself the step is an estimate, and a few per mille of it draw the cracks anew.)
 TEST_F(Physics, an_exactly_similar_specimen_bears_the_same_stress) {
   const std::vector<std::string> bonds{"Bond/Calibrated radius = 0.85 mm", "Bond/Calibrated width = 20 mm",
                                        "Bond/Modulus exponent = 0.08", "Bond/Strength exponent = 0.07"};
@@ -126,16 +127,13 @@ TEST_F(Physics, an_exactly_similar_specimen_bears_the_same_stress) {
     entries.insert(entries.end(), bonds.begin(), bonds.end());
     return crush(name, entries);
   };
-  const nlohmann::json one = of_size("one", {}),
-                       two = of_size("two", {"Specimen/Radius = 20 mm", "Specimen/Height = 40 mm",
-                                             "Specimen/Sphere radius = 1.7 mm"});
-  EXPECT_EQ(two["particles"], one["particles"]);
-  EXPECT_EQ(two["bonds"], one["bonds"]);
-  EXPECT_NEAR(two["time_step_s"].get<double>(), 2 * one["time_step_s"].get<double>(),
-              1e-9 * two["time_step_s"].get<double>());
-  for (const char *figure : {"strength_pa", "strain_at_peak_platen", "youngs_modulus_gauge_pa", "poisson_ratio"})
-    EXPECT_NEAR(two[figure].get<double>(), one[figure].get<double>(), 1e-6 * one[figure].get<double>()) << figure;
-  EXPECT_EQ(two["broken_tension"], one["broken_tension"]);
+  const nlohmann::json one = of_size("one", {"Integration/Time step = 8e-8 s"}),
+                       two = of_size("two", {"Integration/Time step = 16e-8 s", "Specimen/Radius = 20 mm",
+                                             "Specimen/Height = 40 mm", "Specimen/Sphere radius = 1.7 mm"});
+  for (const char *figure : {"particles", "bonds", "strength_pa", "strain_at_peak_platen",
+                             "youngs_modulus_gauge_pa", "poisson_ratio", "broken_tension", "broken_shear"})
+    EXPECT_EQ(two[figure], one[figure]) << figure;
+  EXPECT_EQ(column("two", "axial_stress_top_pa"), column("one", "axial_stress_top_pa"));
 }
 
 TEST_F(Physics, events_hold_every_crack_once_and_its_energy) {

@@ -83,9 +83,9 @@ TEST(SceneBindings, spheres_across_the_least_width_decide_where_the_calibrated_w
   EXPECT_NEAR(modulus(cylinder("30 mm", "3 mm")), own, 1e-9 * own);
   EXPECT_NEAR(modulus(cylinder("20 mm", "1 mm")), own * std::pow(0.5, -0.1), 1e-9 * own); // 20 across for 10
   EXPECT_NEAR(modulus(cylinder("10 mm", "1.2 mm")), own * std::pow(1.2, -0.1), 1e-9 * own);
-  const std::vector<std::string> plate{"Specimen/Shape = box",       "Specimen/Radius =",
-                                       "Specimen/Width x = 30 mm",   "Specimen/Width y = 20 mm",
-                                       "Specimen/Height = 80 mm",    "Specimen/Sphere radius = 1.2 mm"};
+  const std::vector<std::string> plate{
+      "Specimen/Shape = box",     "Specimen/Radius =",       "Specimen/Width x = 30 mm",
+      "Specimen/Width y = 20 mm", "Specimen/Height = 80 mm", "Specimen/Sphere radius = 1.2 mm"};
   EXPECT_NEAR(modulus(plate), own * std::pow(1.2, -0.1), 1e-9 * own); // of the least
   const auto refusal = [&](const std::vector<std::string> &entries) {
     try {
@@ -95,10 +95,11 @@ TEST(SceneBindings, spheres_across_the_least_width_decide_where_the_calibrated_w
     }
     return std::string();
   };
-  EXPECT_NE(refusal(cylinder("30 mm", "1 mm"))
-                .find("Bond/Calibrated width = 20 mm with Calibrated radius = 1 mm is for 10 spheres across, and "
-                      "the specimen has 30 across its least width. Allowed: 6.67 to 20."),
-            std::string::npos)
+  EXPECT_NE(
+      refusal(cylinder("30 mm", "1 mm"))
+          .find("Bond/Calibrated width = 20 mm with Calibrated radius = 1 mm is for 10 spheres across, and "
+                "the specimen has 30 across its least width. Allowed: 6.67 to 20."),
+      std::string::npos)
       << refusal(cylinder("30 mm", "1 mm"));
   EXPECT_NE(refusal(cylinder("10 mm", "1.6 mm")).find("has 6.25 across"), std::string::npos);
   EXPECT_EQ(refusal(cylinder("10 mm", "1.45 mm")), "");

@@ -211,7 +211,8 @@ TEST(Comparisons, ratios_are_taken_seed_by_seed_and_a_failed_run_counts_in_none)
   EXPECT_NE(text_of(plan, all).find("Hughes and Bahramian 1967"), std::string::npos);
 }
 
-// Of a material that nobody calibrated for platens, or for short specimens, a study has strengths and no ratios.
+// Of a material that nobody calibrated for platens, or for short specimens, a study has strengths and no
+// ratios.
 TEST(Comparisons, need_bonds_that_are_calibrated_for_them) {
   const StudyPlan plan = plan_with({"Study/Surface list = 0.57, grease", "Study/Slenderness list = 1, 2"});
   const std::vector<std::vector<double>> strengths{{60, 60}, {30, 30}, {40, 40}, {30, 30}};
@@ -228,9 +229,10 @@ TEST(Comparisons, need_bonds_that_are_calibrated_for_them) {
   EXPECT_EQ(of({})[gain], "");
   EXPECT_EQ(of({})[relative], "");
   auto reasons = of({Figure::compression, Figure::slenderness});
-  EXPECT_EQ(reasons[gain],
-            "the bonds are not calibrated for it: Bond/Calibrated figures = compression, slenderness, without "
-            "friction");
+  EXPECT_EQ(
+      reasons[gain],
+      "the bonds are not calibrated for it: Bond/Calibrated figures = compression, slenderness, without "
+      "friction");
   EXPECT_EQ(reasons[relative], "");
   reasons = of({Figure::friction});
   EXPECT_EQ(reasons[gain], "");
@@ -249,9 +251,8 @@ TEST(Comparisons, outside_the_range_of_the_laboratory_are_told_as_outside) {
     return compare(plan, {{cube, cube}, {30, 30}, {slender, slender}, {30, 30}});
   };
   const auto gain = [](const std::vector<Comparison> &all, std::size_t of) {
-    return *std::find_if(all.begin(), all.end(), [&](const Comparison &c) {
-      return c.effect == PlatenEffect::gain && c.of == of;
-    });
+    return *std::find_if(all.begin(), all.end(),
+                         [&](const Comparison &c) { return c.effect == PlatenEffect::gain && c.of == of; });
   };
   // Mixes of 1967: 1.206 to 1.595 of cubes; 1.030 to 1.108 of prisms of 2.39, the nearest to 2.
   for (const auto &[cube, outside] : {std::pair{36.1, true}, {36.3, false}, {47.7, false}, {47.9, true}})
@@ -262,9 +263,10 @@ TEST(Comparisons, outside_the_range_of_the_laboratory_are_told_as_outside) {
   // A factor without scatter, 1/.87: 5 % to both sides.
   const auto relative = [&](double cube) {
     const std::vector<Comparison> all = with(cube, 40);
-    return std::find_if(all.begin(), all.end(), [](const Comparison &c) {
-             return c.effect == PlatenEffect::relative_strength && c.of == 0;
-           })->outside();
+    return std::find_if(
+               all.begin(), all.end(),
+               [](const Comparison &c) { return c.effect == PlatenEffect::relative_strength && c.of == 0; })
+        ->outside();
   };
   EXPECT_TRUE(relative(43.6));
   EXPECT_FALSE(relative(43.8));
@@ -272,8 +274,9 @@ TEST(Comparisons, outside_the_range_of_the_laboratory_are_told_as_outside) {
   EXPECT_TRUE(relative(48.4));
   const std::vector<Comparison> far = with(60, 32);
   EXPECT_EQ(json_of(plan, far)[0]["verdict"], "outside");
-  EXPECT_NE(text_of(plan, far).find("outside the laboratory's 1.42 (1.21 ... 1.59), Hughes and Bahramian 1967"),
-            std::string::npos)
+  EXPECT_NE(
+      text_of(plan, far).find("outside the laboratory's 1.42 (1.21 ... 1.59), Hughes and Bahramian 1967"),
+      std::string::npos)
       << text_of(plan, far);
   EXPECT_EQ(json_of(plan, with(42, 32))[0]["verdict"], "within");
   const std::vector<Comparison> failed = with(std::nan(""), 32);

@@ -79,9 +79,10 @@ TEST(TargetCases, what_leaves_nothing_to_plan_is_refused) {
     entries.push_back("Bond/Calibrated figures = " + figures);
     return entries;
   };
-  refused(also(greased, "compression, slenderness"),
-          "Study/Target/Figure = gain is none: the bonds are not calibrated for it: Bond/Calibrated figures = "
-          "compression, slenderness, without friction");
+  refused(
+      also(greased, "compression, slenderness"),
+      "Study/Target/Figure = gain is none: the bonds are not calibrated for it: Bond/Calibrated figures = "
+      "compression, slenderness, without friction");
   refused(also(lower, "compression, friction"), "without slenderness");
   EXPECT_NO_THROW(plan_with(also(greased, "compression, friction")));
   EXPECT_NO_THROW(plan_with(also(lower, "compression, slenderness")));
