@@ -222,7 +222,8 @@ TableOfFigures table_of_stages(const Run &run) {
                           or_dash(scene_entry(run.folder / "scene.prm", section_of(rows.number) + "Until")),
                           told ? entry["ended_by"].get<std::string>() : "-", number(time[end], ms_per_s, 3),
                           number(strain[end], mm_per_m, 3), number(across[end], mm_per_m, 3),
-                          number(stress[end], 1 / pa_per_mpa, 2), number(largest.value(), 1 / pa_per_mpa, 2)});
+                          number(stress[end], 1 / pa_per_mpa, 2),
+                          number(largest.value(), 1 / pa_per_mpa, 2)});
     if (confined) table.rows.back().push_back(number(deviator[end], 1 / pa_per_mpa, 2));
   }
   return table;

@@ -259,10 +259,9 @@ void describe(Archive &archive, const std::string &name, std::vector<Sample> &sa
   Table table;
   std::vector<Column<double> *> columns;
   for (const HistoryColumn &column : history_columns())
-    columns.push_back(
-        &table.add<double>(column.name, column.unit,
-                           column.form == number ? any_value() : or_nan(between(0, most_counted)),
-                           column.before));
+    columns.push_back(&table.add<double>(
+        column.name, column.unit, column.form == number ? any_value() : or_nan(between(0, most_counted)),
+        column.before));
   table.resize(samples.size());
   for (std::size_t row = 0; row < samples.size(); ++row)
     for (std::size_t k = 0; k < columns.size(); ++k)

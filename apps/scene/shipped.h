@@ -1,5 +1,5 @@
-// Scenes that came with the programs or the Python package: beside them where they were built, in share/platen
-// where they were installed.
+// Scenes that came with the programs or the Python package: beside them where they were built, in
+// share/platen where they were installed.
 #pragma once
 
 #include <filesystem>

@@ -20,8 +20,7 @@ inline UsualUnit usual_unit(const std::string &si_unit) {
 }
 
 // "1.4 mm" of 0.0014 m, without the last bit that a conversion may leave. `between` parts number and unit.
-inline std::string in_usual_unit(double value, const std::string &si_unit,
-                                 const std::string &between = " ") {
+inline std::string in_usual_unit(double value, const std::string &si_unit, const std::string &between = " ") {
   const UsualUnit unit = usual_unit(si_unit);
   std::array<char, 40> number{};
   std::snprintf(number.data(), number.size(), "%.12g", value * unit.in_one);

@@ -59,10 +59,9 @@ TEST_F(LedOn, a_larger_strain_gives_the_straight_test_to_the_last_byte) {
       {scene_, "-o", "led", "-t", "1", "-s", "Output/Fields = off", "-s", "Loading/Target strain = 0.0012"},
       folder_);
   EXPECT_EQ(ended.status, 0) << ended.error;
-  EXPECT_NE(
-      ended.out.find("it goes on from here with: platen-compress " + scene_ +
-                     " -o led -s 'Output/Fields = off' --resume -s 'Loading/Target strain = 0.0024'\n"),
-      std::string::npos)
+  EXPECT_NE(ended.out.find("it goes on from here with: platen-compress " + scene_ +
+                           " -o led -s 'Output/Fields = off' --resume -s 'Loading/Target strain = 0.0024'\n"),
+            std::string::npos)
       << ended.out;
   const nlohmann::json first = summary_in(folder_ / "led");
   EXPECT_EQ(first["peak_reached"], false);
@@ -80,10 +79,9 @@ TEST_F(LedOn, a_larger_strain_gives_the_straight_test_to_the_last_byte) {
 // Whatever the folder and the title are called: nothing of them is for the shell.
 TEST_F(LedOn, a_printed_command_can_be_pasted_into_a_shell) {
   for (const std::string results : {"a b", "$(touch x)", "it's"}) {
-    const Outcome ended =
-        run_compress({scene_, "-o", results, "-t", "1", "-s", "Output/Fields = off", "-s", "Scene/Title = it's $HOME",
-                      "-s", "Loading/Target strain = 0.0008"},
-                     folder_);
+    const Outcome ended = run_compress({scene_, "-o", results, "-t", "1", "-s", "Output/Fields = off", "-s",
+                                        "Scene/Title = it's $HOME", "-s", "Loading/Target strain = 0.0008"},
+                                       folder_);
     const std::string before = "it goes on from here with: platen-compress";
     const std::size_t at = ended.out.find(before);
     ASSERT_NE(at, std::string::npos) << ended.out << ended.error;

@@ -109,8 +109,8 @@ TEST(ReportApp, every_picture_is_drawn_without_a_display_and_is_neither_empty_no
   EXPECT_NE(page.find("data:image/png;base64,iVBOR"), std::string::npos); // how every PNG begins
 }
 
-// The apex stands aside along x, the axis leans along y: by which of both the specimen is turned must not hang
-// on its size.
+// The apex stands aside along x, the axis leans along y: by which of both the specimen is turned must not
+// hang on its size.
 TEST(ReportApp, cones_look_the_same_at_any_size) {
   const TestFolder folder;
   const auto picture_of = [&](double times) {

@@ -127,9 +127,10 @@ TEST(ReportStudy, says_first_what_is_outside_the_laboratory_and_what_the_bonds_a
   folder.write("study.json", file.dump());
   const StudyResults study = read_study(folder.path());
   ASSERT_GE(study.remarks.size(), 2u);
-  EXPECT_EQ(study.remarks[0],
-            "outside the laboratory's range: gain over free ends, dry steel, height/width 1: 1.890 ... 1.990, 3 "
-            "packings, laboratory 1.42 (1.21 to 1.59), Hughes");
+  EXPECT_EQ(
+      study.remarks[0],
+      "outside the laboratory's range: gain over free ends, dry steel, height/width 1: 1.890 ... 1.990, 3 "
+      "packings, laboratory 1.42 (1.21 to 1.59), Hughes");
   EXPECT_EQ(study.remarks[1],
             "strength over that at slenderness 2, dry steel, height/width 1: none: not calibrated");
   const TableOfFigures table = table_of_study(study);
