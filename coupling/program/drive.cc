@@ -82,7 +82,7 @@ void RateTask::command(const Measures &m, Commands &asked) {
 
 std::optional<Controlled> RateTask::controlled(const Measures &m) const {
   const double passed = m.time() - begun_;
-  if (!(passed > 0)) return std::nullopt; // or a state from before this was kept
+  if (!(passed > 0) || std::isnan(path_)) return std::nullopt; // a state from before this was kept
   Controlled c{"rate", side_, "m/s", drive_->platens().axis};
   c.asked = path_ / passed;
   c.reached = (drive_->platens().closure(m) - closure_found_) / passed;
@@ -93,9 +93,9 @@ std::optional<Controlled> RateTask::controlled(const Measures &m) const {
 void RateTask::describe(Archive &archive) {
   archive.version(1);
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  archive("begun", begun_, "s", unknown, or_nan());
+  archive("begun", begun_, "s", 0.0);
   archive("path", path_, "m", unknown, or_nan());
-  archive("closure_found", closure_found_, "m", unknown, or_nan());
+  archive("closure_found", closure_found_, "m", 0.0);
 }
 
 double RateTask::fastest() const {

@@ -162,7 +162,7 @@ TEST_F(SceneFiles, a_written_scene_gives_the_same_bits) {
 }
 
 TEST_F(SceneFiles, a_written_scene_finds_its_files_from_where_it_lies) {
-  put("cases/packings/spheres  a.csv", "x\n");
+  put("cases/packings/spheres  a.csv", "x_m,y_m,z_m,radius_m\n0,0,0.05,0.0015\n");
   const Scene scene = read(
       "cases/a.prm", concrete,
       {"Specimen/Packing = file", "Specimen/File = " + (folder_ / "cases/packings/spheres  a.csv").string()});
@@ -193,7 +193,7 @@ TEST_F(SceneFiles, a_written_scene_is_completed_with_the_defaults_of_what_it_lac
 }
 
 TEST_F(SceneFiles, a_file_is_looked_for_beside_the_scene_that_names_it) {
-  put("packings/spheres.csv", "x\n");
+  put("packings/spheres.csv", "x_m,y_m,z_m,radius_m\n0,0,0.05,0.0015\n");
   std::string with_file = concrete;
   const std::string key = "  set Ends          = ground\n";
   with_file.replace(with_file.find(key), key.size(),
