@@ -162,9 +162,11 @@ TableOfFigures table_of_accuracy(const AccuracyResults &study) {
   for (const AccuracyParameter &parameter : study.parameters)
     for (const AccuracyValue &value : parameter.values) {
       const bool reference = &value == &parameter.values.back();
-      std::vector<std::string> row{
-          parameter.name, std::isnan(value.number) ? value.text : in_usual_unit(value.number, parameter.unit),
-          std::to_string(value.errors[0].runs)};
+      std::vector<std::string> row{parameter.name,
+                                   !std::isnan(value.number)
+                                       ? in_usual_unit(value.number, parameter.unit)
+                                       : value.text + (parameter.unit.empty() ? "" : " " + parameter.unit),
+                                   std::to_string(value.errors[0].runs)};
       for (std::size_t m = 0; m < accuracy_measures; ++m)
         row.push_back(
             !reference ? error_words(value.errors[m])

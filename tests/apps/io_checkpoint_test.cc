@@ -50,7 +50,7 @@ struct Part {
     archive("gain", gain);
     archive("on", on);
     archive("axis", axis, "m");
-    archive.rows("displacement", displacement, "m");
+    archive.rows("displacement", displacement, "m", any_value());
     archive.rows("empty", empty);
     archive.text("scene", scene);
     archive.part("spheres", spheres);

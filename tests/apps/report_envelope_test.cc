@@ -110,7 +110,7 @@ TEST(ReportEnvelope, the_page_of_one_packing_says_that_no_scatter_is_known) {
   const std::string page = text_of(folder / "pictures/report.html");
   EXPECT_NE(page.find("one packing: no scatter known"), std::string::npos);
   EXPECT_NE(page.find("<th>phi (degrees)</th>"), std::string::npos);
-  EXPECT_NE(page.find("<td>60.0</td>"), std::string::npos); // strength at 5 MPa
+  EXPECT_NE(page.find("<td>60.0, 1 packing</td>"), std::string::npos); // strength at 5 MPa
 }
 
 } // namespace
