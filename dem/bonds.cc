@@ -206,9 +206,9 @@ void Bonds::require_whole(const StateSource &from, const std::string &at) const 
       refuse_row(rows + "record", k, std::to_string(of[k]), "the record of its pair, each once");
     if (k > 0 && i[k] / static_cast<int>(block_rows) < i[k - 1] / static_cast<int>(block_rows))
       refuse_row(rows + "first", k, std::to_string(i[k]), "in the order of blocks of particles");
-    if (is_broken(states[r]) ? stiffness[k] > 0 && !has_history(law) : stiffness[k] == 0)
+    if (is_broken(states[r]) && !has_history(law) ? stiffness[k] > 0 : stiffness[k] == 0)
       refuse_row(rows + "normal_stiffness", k, shortest_text(stiffness[k]),
-                 "0 of a bond that has broken, > 0 of one that has not");
+                 "0 of a bond that has broken, > 0 of one that has not, or stays as a contact");
   }
   for (std::size_t r = 0; r < states.size(); ++r) {
     if (!is_broken(states[r]) && !has_row[r])

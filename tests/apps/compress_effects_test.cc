@@ -25,7 +25,7 @@ protected:
     std::istringstream file(content_of(folder_ / name / "history.csv"));
     std::vector<std::vector<std::string>> rows;
     for (std::string line; std::getline(file, line);) {
-      std::istringstream cells(line);
+      std::istringstream cells(line + ','); // an empty last cell is one
       rows.emplace_back();
       for (std::string cell; std::getline(cells, cell, ',');)
         rows.back().push_back(cell);
