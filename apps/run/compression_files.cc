@@ -131,7 +131,9 @@ void CompressionRun::open_files() {
   const FoundCheckpoint found = newest_whole_checkpoint(paths_.checkpoints());
   for (const std::string &remark : found.remarks)
     log_.warning("{}", remark);
-  const FileMarks marks = load_state(CheckpointReader(found.path), *test_, results_);
+  const CheckpointReader checkpoint(found.path);
+  const FileMarks marks = load_state(checkpoint, *test_, results_);
+  if (results_.samples().empty()) checkpoint.fail("\"results/samples\" has no row, one at least is needed");
   if (marks.target_strain != scene_.loading.target_strain) test_->go_on();
   output_.lead_on();
   reopen_history();

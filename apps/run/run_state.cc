@@ -20,8 +20,6 @@ void require_fitting_results(const StateSource &from, const coupling::PlatenTest
       block && block->rows != 0 && block->rows != spheres)
     throw StateError("\"" + places + "\" has " + std::to_string(block->rows) + " rows, 0 or " +
                      std::to_string(spheres) + " are needed");
-  if (from.find("results/samples/size") && rows_of<std::uint64_t>(from, "results/samples/size").at(0) == 0)
-    throw StateError("\"results/samples\" has no row, one at least is needed");
   if (problem.settings().loading.stages.empty() || !from.find(stages)) return;
   const std::vector<double> numbers = rows_of<double>(from, stages);
   const std::size_t count = problem.program().stage_count();
