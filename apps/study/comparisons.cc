@@ -218,11 +218,16 @@ void to_json(Json &json, const LaboratoryFigure &figure) {
 
 Json json_of(const StudyPlan &plan, const std::vector<Comparison> &comparisons) {
   Json all = Json::array();
+  const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
   for (const Comparison &c : comparisons) {
-    Json one{{"effect", word(c.effect)},         {"case", plan.cases[c.of].name},
-             {"over", plan.cases[c.over].name},  {"mean", c.ratio.mean()},
-             {"deviation", c.ratio.deviation()}, {"low", c.ratio.least()},
-             {"high", c.ratio.largest()},        {"runs", c.ratio.count()}};
+    Json one{{"effect", word(c.effect)},
+             {"case", plan.cases[c.of].name},
+             {"over", plan.cases[c.over].name},
+             {"mean", number(c.ratio.mean())},
+             {"deviation", number(c.ratio.deviation())},
+             {"low", number(c.ratio.least())},
+             {"high", number(c.ratio.largest())},
+             {"runs", c.ratio.count()}};
     one["laboratory"] = c.laboratory == nullptr ? Json() : Json(*c.laboratory);
     if (*verdict(c) != '\0') one["verdict"] = verdict(c);
     if (!c.reason.empty()) one["reason"] = c.reason;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "base/pi.h"
@@ -142,6 +143,7 @@ void Sleeve::drift(const Step &step, const Command &command) {
 }
 
 void Sleeve::finish(const Step &step) {
+  share_read_ = std::numeric_limits<double>::quiet_NaN();
   try {
     take_loads();
   } catch (const fem::InvertedElement &e) {
@@ -184,6 +186,7 @@ double Sleeve::axial_force_beyond_pressure() const {
 
 double Sleeve::confined_share() const {
   if (!(pressure() > 0)) return std::numeric_limits<double>::quiet_NaN();
+  if (!std::isnan(share_read_)) return share_read_;
   const fem::SurfaceMesh &inner = solid_->surface();
   std::vector<char> bears(inner.faces.size(), 0);
   contact_->visit_contacts([&](int face, const Vector3 &) { bears[static_cast<std::size_t>(face)] = 1; });
@@ -313,6 +316,9 @@ void Sleeve::describe(Archive &archive) {
   }
   archive.part("solid", with_loads());
   archive.part("contacts", *contact_);
+  double share = archive.writes() ? confined_share() : 0;
+  archive("confined_share", share, "1", std::numeric_limits<double>::quiet_NaN(), or_nan(between(0, 1)));
+  if (archive.reads()) share_read_ = share;
   if (archive.reads() && made_ < planned_) solid_->place_surface_ahead(elapsed_);
 }
 

@@ -9,6 +9,7 @@
 // and a spring that answers late feeds every oscillation.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "coupling/boundaries/platen.h"
@@ -171,6 +172,8 @@ private:
   double limit_ = 0;                    // s, of the next interval, by the contacts at the end of this one
   double own_limit_ = 0;                // s, of the elements alone, asked for now and then
   double intervals_ = 0, cuts_ = 0;     // since the start
+  // Of a state that was just read, until a step finds which elements bear; else NaN.
+  double share_read_ = std::numeric_limits<double>::quiet_NaN();
 };
 
 } // namespace platen::coupling

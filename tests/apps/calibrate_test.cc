@@ -49,7 +49,7 @@ subsection Platens
   set Friction static = 0.57
 end
 subsection Loading
-  set Axial rate = 0.08 m/s
+  set Axial rate = 0.02 m/s
   set Target strain = 0.02
 end
 subsection Calibrate

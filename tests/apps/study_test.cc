@@ -293,7 +293,7 @@ TEST_F(Study, what_the_scene_expects_is_asked_of_every_run) {
   for (const auto &one : expectations) {
     EXPECT_EQ(one["entry"], "Expect/particles");
     EXPECT_EQ(one["met"], one["value"] <= 150);
-    missed += one["met"] == false && contains(one["run"], "sphere_radius_0.0014_seed_");
+    missed += one["met"] == false && contains(one["run"], "sphere_radius_1.4_mm_seed_");
   }
   EXPECT_EQ(missed, 2);
 }
@@ -395,7 +395,8 @@ TEST(StudyPlan, where_no_size_is_given_they_are_in_proportion_to_the_specimen) {
   for (const double times : {1.0, 10.0, 0.1}) {
     const std::vector<std::string> entries{fmt::format("Specimen/Height = {:.12g} m", 0.08 * times),
                                            fmt::format("Specimen/Radius = {:.12g} m", 0.025 * times),
-                                           fmt::format("Specimen/Sphere radius = {:.12g} m", 0.001 * times)};
+                                           fmt::format("Specimen/Sphere radius = {:.12g} m", 0.001 * times),
+                                           "Study/Sphere radius list ="};
     const StudyPlan plan = plan_study(StudyKind::size, scene_with(entries), entries);
     ASSERT_EQ(plan.cases.size(), 4u);
     for (const auto &[k, radius] : {std::pair{0u, 0.0005}, {1u, 0.00075}, {2u, 0.001}, {3u, 0.00125}})
@@ -424,7 +425,8 @@ TEST(StudyPlan, sizes_of_the_thesis_are_six_cases) {
 }
 
 TEST(StudyPlan, without_lists_the_sizes_are_those_of_the_thesis) {
-  const std::vector<std::string> entries{"Study/Sphere radius list ="};
+  const std::vector<std::string> entries{"Study/Sphere radius list =", "Specimen/Radius = 25 mm",
+                                         "Specimen/Height = 80 mm"};
   const StudyPlan plan = plan_study(StudyKind::size, scene_with(entries), entries);
   ASSERT_EQ(plan.cases.size(), 4u);
   EXPECT_EQ(plan.cases[0].labels[0], 0.0005);
