@@ -121,7 +121,13 @@ TEST_P(Pairs, tell_a_peak_where_the_second_stage_crushes_the_specimen) {
     EXPECT_EQ(s["peak_reached"] == true, second.crushes);
     EXPECT_EQ(said == "valid", second.crushes) << said;
     EXPECT_EQ(s["strength_pa"].is_null(), !second.crushes);
-    EXPECT_EQ(s["pattern"].is_null() && s["middle_damage"].is_null(), !second.crushes);
+    // How it has failed is told of a specimen that its cell still presses.
+    const bool has_pattern = !s["pattern"].is_null() || !s["middle_damage"].is_null();
+    const std::string against = s["validity"]["middle_damage"].dump();
+    if (second.crushes)
+      EXPECT_TRUE(has_pattern || against.find("of the lateral surface") != std::string::npos) << against;
+    else
+      EXPECT_FALSE(has_pattern);
     EXPECT_EQ(s["fall_time_s"].is_null(), !second.crushes);
   }
 }
