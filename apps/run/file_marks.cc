@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "apps/io/sha256.h"
 
 namespace platen::apps {
@@ -38,7 +40,7 @@ void FileMarks::describe(Archive &archive) {
     archive.text("input_sums", input_sums);
   }
   archive("last_frame", last_frame, "s");
-  archive("frames", frames, "1", at_least(0));
+  archive("frames", frames, "1", between(0, std::numeric_limits<int>::max()));
   archive("wall_seconds", wall_seconds, "s", at_least(0));
   archive("target_strain", target_strain, "1", unknown_target, or_nan());
   if (version >= 4) archive.text("changes", changes);

@@ -93,7 +93,7 @@ TEST_F(WrongState, a_number_that_cannot_be_is_status_two_with_its_place_and_noth
            {"test/program/stage", 0, 1000000, "0 ... 0"},
            {"test/time_step", 0, 0, "> 0 s"},
            {"results/samples/intact_bonds", 0, -1, "0 ... "},
-           {"files/frames", 0, -1, ">= 0"},
+           {"files/frames", 0, -1, "0 ... 2147483647"},
        }) {
     put_number(number, whole);
     const Outcome outcome = resumed();

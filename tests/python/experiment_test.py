@@ -37,7 +37,7 @@ class Shipped(InFolder):
         for part in ("materials/concrete_c40.prm", "parts/concrete.prm"):
             scene = self.folder / "mine.prm"
             scene.write_text(f"include {part}\nsubsection Specimen\n  set Shape = cylinder\n  set Radius = 25 mm\n  set Height = 50 mm\n"
-                             "  set Sphere radius = 3 mm\nend\n")
+                             "  set Sphere radius = 3 mm\nend\nsubsection Loading\n  set Axial rate = 0.1 m/s\n  set Target strain = 0.001\nend\n")
             experiment = platen.Experiment(scene, output=self.folder / part)
             self.assertGreater(len(experiment.spheres["id"]), 100)
 
