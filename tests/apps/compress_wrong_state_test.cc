@@ -115,15 +115,19 @@ TEST_F(WrongState, a_number_that_cannot_be_is_status_two_with_its_place_and_noth
 // What the program keeps beside the test: a number that it only tells may be any, and is never a crash.
 TEST_F(WrongState, no_number_of_results_or_files_ends_the_program_otherwise_than_by_words) {
   run(small);
-  const fs::path whole = folder_ / "whole.platen";
+  const fs::path whole = folder_ / "whole.platen", kept = folder_ / "kept";
   fs::copy(checkpoint_, whole);
+  fs::copy(folder_ / "run", kept, fs::copy_options::recursive);
   const CheckpointReader good(whole);
-  int blocks = 0;
+  int blocks = 0, tried = 0;
+  constexpr int one_of = 8; // a resume takes a second
   for (const std::string &name : good.names()) {
     const StoredBlock block = *good.find(name);
     if (name.rfind("test/", 0) == 0 || block.type.kind == BlockType::Kind::text || block.rows == 0) continue;
-    ++blocks;
-    const double value = blocks % 2 == 0 ? 1e300 : std::nan("");
+    if (++blocks % one_of != 0) continue;
+    const double value = ++tried % 2 == 0 ? 1e300 : std::nan("");
+    fs::remove_all(folder_ / "run"); // which an earlier one may have led on
+    fs::copy(kept, folder_ / "run", fs::copy_options::recursive);
     put_number({name, block.rows / 2 * block.type.numbers, value, ""}, whole);
     const Outcome outcome = resumed();
     EXPECT_TRUE(outcome.status >= 0 && outcome.status <= 4)
@@ -131,7 +135,7 @@ TEST_F(WrongState, no_number_of_results_or_files_ends_the_program_otherwise_than
     EXPECT_TRUE(outcome.status != 2 || contains(outcome.error, checkpoint_.filename().string()))
         << name << " = " << value << ": " << outcome.error;
   }
-  EXPECT_GT(blocks, 50);
+  EXPECT_GT(tried, 15);
 }
 
 } // namespace
