@@ -85,6 +85,10 @@ std::vector<std::string> missed(const Goals &goals, const Found &found) {
     if (goals.met(at.goals[k], found.measured)) continue;
     const double miss = goals.miss(at.goals[k], found.measured), unit = goal.unit;
     std::string line = goal.words + ": ";
+    if (std::isnan(miss)) {
+      lines.push_back(line + "was not measured");
+      continue;
+    }
     if (goal.curve)
       line += fmt::format("off by {:.3g}", miss);
     else

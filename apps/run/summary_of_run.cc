@@ -148,7 +148,7 @@ void add_peak(Json &to, const Results &results) {
                   : peak.kind == PeakKind::plateau ? Json("plateau")
                                                    : Json("not reached");
   to["peak_time_s"] = peak.reached() ? results.time_at_peak() : not_measured;
-  to["fall_time_s"] = results.pattern().time;
+  to["fall_time_s"] = peak.reached() ? results.pattern().time : not_measured;
   to["largest_stress_pa"] = largest.value;
   to["largest_stress_time_s"] = largest.time;
   to["stress_at_end_pa"] = results.stress_at_end();

@@ -152,6 +152,7 @@ const Figures of_history{"peak_reached",
                          "largest_deviator_pa",
                          "largest_deviator_time_s",
                          "stress_at_end_pa",
+                         "confining_pressure_pa",
                          "consolidation_end_time_s",
                          "moduli_at_stress_pa",
                          "pressure_path_deviation",
@@ -300,7 +301,7 @@ void judge_damage(Validity &of, const Scene &scene, const coupling::PlatenTest &
            "ends and cones are told of cylinders and boxes that are compressed along z");
     return;
   }
-  if (std::isnan(results.pattern().time)) {
+  if (std::isnan(results.pattern().time) || !results.peak().reached()) {
     of.add(of_damage, "the stress has not fallen to 0.8 of its peak");
     return;
   }

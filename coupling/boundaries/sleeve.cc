@@ -314,7 +314,11 @@ void Sleeve::describe(Archive &archive) {
     if (made > planned)
       refuse_row(archive.path("steps_made"), 0, std::to_string(made), "0 ... " + std::to_string(planned));
   }
-  archive.part("solid", with_loads());
+  try {
+    archive.part("solid", with_loads());
+  } catch (const fem::InvertedElement &e) {
+    throw StateError(std::string("the sleeve of the state is inside out: ") + e.what());
+  }
   archive.part("contacts", *contact_);
   double share = archive.writes() ? confined_share() : 0;
   archive("confined_share", share, "1", std::numeric_limits<double>::quiet_NaN(), or_nan(between(0, 1)));

@@ -90,15 +90,16 @@ void Pairs::expect_of_one_row(const std::string &name, const nlohmann::json &s) 
   EXPECT_EQ(s["largest_deviator_pa"],
             *std::max_element(deviator.begin() + static_cast<std::ptrdiff_t>(zero) + 1, deviator.end()));
   EXPECT_EQ(s["largest_deviator_pa"], deviator.at(row_of(s["largest_deviator_time_s"])));
-  if (s["strength_pa"].is_null()) {
+  if (s["peak_reached"] != true) {
     EXPECT_TRUE(s["peak_time_s"].is_null());
     EXPECT_EQ(s["confining_pressure_pa"], pressure.back());
     return;
   }
   const std::size_t peak = row_of(s["peak_time_s"]);
+  EXPECT_EQ(s["confining_pressure_pa"], pressure.at(peak));
+  if (s["strength_pa"].is_null()) return; // at a pressure that was not the asked one
   EXPECT_EQ(s["strength_pa"], stress.at(peak));
   EXPECT_NEAR(s["deviator_strength_pa"], deviator.at(peak), 1);
-  EXPECT_EQ(s["confining_pressure_pa"], pressure.at(peak));
   EXPECT_NEAR(s["strain_at_peak_platen"], strain.at(peak) - strain.at(zero), 1e-12);
 }
 
@@ -119,13 +120,17 @@ TEST_P(Pairs, tell_a_peak_where_the_second_stage_crushes_the_specimen) {
                said.is_array() ? said[0].get<std::string>() : said.get<std::string>());
     expect_of_one_row(name, s);
     EXPECT_EQ(s["peak_reached"] == true, second.crushes);
-    EXPECT_EQ(said == "valid", second.crushes) << said;
-    EXPECT_EQ(s["strength_pa"].is_null(), !second.crushes);
+    // A first stage that ended before its pressure was reached speaks against the strength at that pressure.
+    const bool missed = said.dump().find("has not reached what it asked: lateral") != std::string::npos;
+    EXPECT_TRUE(!missed || first.name == std::string("share")) << said;
+    EXPECT_EQ(said == "valid", second.crushes && !missed) << said;
+    EXPECT_EQ(s["strength_pa"].is_null(), !second.crushes || missed);
     // How it has failed is told of a specimen that its cell still presses.
     const bool has_pattern = !s["pattern"].is_null() || !s["middle_damage"].is_null();
     const std::string against = s["validity"]["middle_damage"].dump();
     if (second.crushes)
-      EXPECT_TRUE(has_pattern || against.find("of the lateral surface") != std::string::npos) << against;
+      EXPECT_TRUE(has_pattern || missed || against.find("of the lateral surface") != std::string::npos)
+          << against;
     else
       EXPECT_FALSE(has_pattern);
     EXPECT_EQ(s["fall_time_s"].is_null(), !second.crushes);

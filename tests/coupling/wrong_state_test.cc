@@ -247,7 +247,11 @@ TEST(wrong_state, no_number_of_any_block_is_believed_that_cannot_be) {
             ASSERT_EQ(refusal(other, good), "");
           } else {
             ++refused;
-            ASSERT_TRUE(k > 0 || same_state(good, other));
+            // Whether rubber is inside out is found when it is read.
+            if (why.find("inside out") != std::string::npos)
+              ASSERT_EQ(refusal(other, good), "");
+            else
+              ASSERT_TRUE(k > 0 || same_state(good, other));
           }
         }
     }
