@@ -93,8 +93,8 @@ std::vector<GroundSpring> LateralWall::ground_springs(const Particles &p) const 
 void LateralWall::describe(Archive &archive) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   archive.version(1);
-  archive("force", force_, "N", unknown);
-  archive("elastic_energy", elastic_energy_, "J", unknown);
+  archive("force", force_, "N", unknown, or_nan());
+  archive("elastic_energy", elastic_energy_, "J", unknown, or_nan());
   if (archive.reads()) valid_ = false;
 }
 

@@ -102,7 +102,8 @@ Sample pace_of(const coupling::PlatenTest &problem) {
   return s;
 }
 
-// From a tenth of the peak to the peak, as platen-compress judges it; "" where it was slow enough. `paces`:
+// From a tenth of the peak to the peak, by the bounds of platen-compress on all but the kinetic energy; ""
+// where it was slow enough. `paces`:
 // of the readings, the first before the platens move.
 std::string haste(const coupling::PlatenTest &problem, const std::vector<Reading> &all,
                   const std::vector<Sample> &paces) {

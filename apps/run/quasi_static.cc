@@ -64,8 +64,8 @@ Slowness slowness(const coupling::PlatenTest &problem, const Results &results) {
 }
 
 bool knows_slowness(const Results &results, const std::string &ended_by) {
-  const bool cut_off =
-      ended_by.empty() || ended_by == "signal" || ended_by == "failure" || ended_by == "script";
+  const std::string by = ended_by.substr(0, ended_by.find(';')); // what follows was not reached
+  const bool cut_off = by.empty() || by == "signal" || by == "failure" || by == "script";
   return results.peak().reached() || !cut_off;
 }
 

@@ -182,7 +182,8 @@ std::optional<double> first_fault(std::size_t column, const coupling::PlatenTest
     const bool bears = of.missing == Missing::without_forces && s.intact_bonds > 0;
     const bool may = may_be(value, of, problem) && !(bears && std::isnan(value));
     missing += may && !std::isfinite(value);
-    const bool lacks = of.missing == Missing::without_spheres && !std::isfinite(value);
+    const bool lacks = (of.missing == Missing::without_spheres && !std::isfinite(value)) ||
+                       (of.missing == Missing::without_pressure && s.cell_pressure > 0 && std::isnan(value));
     if ((!may || lacks) && !first) first = s.time;
   }
   return of.missing == Missing::without_spheres && missing == samples.size() ? std::nullopt : first;

@@ -143,7 +143,6 @@ void Sleeve::drift(const Step &step, const Command &command) {
 }
 
 void Sleeve::finish(const Step &step) {
-  share_read_ = std::numeric_limits<double>::quiet_NaN();
   try {
     take_loads();
   } catch (const fem::InvertedElement &e) {
@@ -290,6 +289,7 @@ void Sleeve::move(double dt, const RimMotion &rims) {
 
 // The loads of the last step stand on the surface.
 void Sleeve::take_loads() {
+  share_read_ = std::numeric_limits<double>::quiet_NaN();
   if (made_ < planned_) return;
   solid_->drift(elapsed_, planned_ > 1); // looked at when the interval began
   solid_->update_forces();

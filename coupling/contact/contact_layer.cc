@@ -344,7 +344,7 @@ void ContactLayer::describe(Archive &archive) {
   archive("damping_work", damping_work, "J");
   archive("closed", closed);
   // Older states do not know it: it is told from the next step on.
-  archive("elastic_energy", elastic_energy_, "J", std::numeric_limits<double>::quiet_NaN());
+  archive("elastic_energy", elastic_energy_, "J", std::numeric_limits<double>::quiet_NaN(), or_nan());
   if (parameters_.hertz) {
     archive("deepest", deepest_, "1", at_least(0));
     archive("counted", counted_, "1", at_least(0));

@@ -114,12 +114,17 @@ Loads StressTask::loads(double sense) const {
 }
 
 void StressTask::describe(Archive &archive) {
-  archive.version(1);
+  const int version = archive.version(2);
   archive("begun", begun_, "s");
   archive("stress_found", stress_found_, "Pa");
   archive("speed_found", speed_found_, "m/s");
   archive("followed", followed_, "Pa");
   archive("missing", missing_, "Pa");
+  if (version < 2) { // the stage has them now
+    double former = 0;
+    for (const char *name : {"asked_at_end", "borne_at_end"})
+      archive(name, former, "Pa", 0.0, or_nan());
+  }
   archive.part("servo", servo_);
 }
 

@@ -107,6 +107,17 @@ TEST_F(Frames, are_what_the_tables_tell) {
                   1e-12 * size(force));
   }
 
+  // Rigid platens show how far they have gone: together what the specimen is shortened by.
+  const auto platens = read(last("platens"));
+  double up = 0, down = 0; // m
+  for (vtkIdType k = 0; k < platens->GetNumberOfPoints(); ++k) {
+    const double along = array(platens->GetPointData(), "displacement").GetComponent(k, 2);
+    up = std::max(up, along), down = std::min(down, along);
+  }
+  const double closure = 0.02 * column_of(folder_ / "run/history.csv", "axial_strain_platen").back();
+  EXPECT_GT(closure, 1e-4);
+  EXPECT_NEAR(up - down, closure, 0.01 * closure);
+
   // Field data of the frame: the last row of the history.
   const auto of_frame = [&](const char *name) {
     return specimen->GetFieldData()->GetArray(name)->GetComponent(0, 0);

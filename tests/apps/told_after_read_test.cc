@@ -146,6 +146,7 @@ TEST(ToldAfterReadOfOlderStates, is_no_number_until_the_next_step) {
   EXPECT_TRUE(std::isnan(read.energy().contacts));
   EXPECT_TRUE(std::isnan(read.confining_pressure()));
   EXPECT_TRUE(std::isnan(read.unbalanced_ratio()));
+  EXPECT_NO_THROW(set_state(read, state_of(read))); // written again before a step
   run.advance(1), read.advance(1);
   EXPECT_EQ(run.energy().contacts, read.energy().contacts);
   EXPECT_EQ(run.confining_pressure(), read.confining_pressure());

@@ -57,7 +57,7 @@ TESTS = {
 # Entries that ask for nothing of a single test, or are strings.
 OTHER_SECTIONS = ("Expect", "Study", "Calibrate", "Calibration", "Pair test", "Bar test", "Target", "Scene", "Phases", "Checkpoint")
 # Columns with a cell that may be empty: what a specimen has no spheres for, or no bond bears.
-MAY_BE_EMPTY = {"unbalanced_force_ratio", "axial_strain_gauge", "lateral_strain", "volumetric_strain", "lateral_strain_extremal",
+MAY_BE_EMPTY = {"unbalanced_force_ratio", "confined_area_share", "axial_strain_gauge", "lateral_strain", "volumetric_strain", "lateral_strain_extremal",
                 "axial_strain_extremal", "opening_m", "circumferential_strain", "magnitude", "mean_stress_pa",
                 "mean_pressed_stress_pa", "pressed_over_axial"}
 ENERGIES = re.compile(r"_(energy|work|residual)_j$")
