@@ -31,13 +31,14 @@ RunCosts CompressionRun::costs() const {
   c.step_seconds = seconds_since(loop_start_);
   c.ended_by = failed_ ? "failure" : signal_ != 0 ? "signal" : ended_by();
   if (ending_ && c.ended_by.empty()) c.ended_by = "script";
-  if (!c.ended_by.empty()) c.ended_by = with_misses(c.ended_by, *test_, results_);
+  if (!c.ended_by.empty())
+    c.ended_by = with_misses(c.ended_by, *test_, results_, stages_over(*test_, !ended_by().empty()));
   return c;
 }
 
-// What stages asked and did not reach, of those that ended after so many.
+// What stages asked and did not reach, of those that are over after so many.
 void CompressionRun::tell_misses(std::size_t from) const {
-  for (std::size_t k = from; k < test_->program().stages_ended(); ++k) {
+  for (std::size_t k = from; k < stages_over(*test_, !ended_by().empty()); ++k) {
     const std::string words = words_of_misses(*test_, k);
     if (words.empty()) continue;
     if (failed_in(*test_, results_, k))

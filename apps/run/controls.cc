@@ -70,18 +70,22 @@ std::string words_of_misses(const coupling::PlatenTest &problem, std::size_t sta
     return fmt::format("stage {} did not settle in its time: {}; a longer Hold gives it more", stage + 1,
                        fmt::join(words, ", "));
   if (words.empty()) return "";
-  return fmt::format("stage {} (ended by: {}) has not reached what it asked: {}", stage + 1, by,
-                     fmt::join(words, ", "));
+  return fmt::format("stage {} (ended by: {}) has not reached what it asked: {}", stage + 1,
+                     by.empty() ? "the end of the test" : by, fmt::join(words, ", "));
 }
 
 bool failed_in(const coupling::PlatenTest &problem, const Results &results, std::size_t stage) {
   return results.peak().reached() && problem.program().stage_at(results.time_at_peak()) == stage;
 }
 
+std::size_t stages_over(const coupling::PlatenTest &problem, bool test_ended) {
+  return test_ended ? problem.program().stage_number() + 1 : problem.program().stages_ended();
+}
+
 std::string with_misses(const std::string &ended_by, const coupling::PlatenTest &problem,
-                        const Results &results) {
+                        const Results &results, std::size_t stages) {
   std::vector<std::string> words;
-  for (std::size_t stage = 0; stage < problem.program().stages_ended(); ++stage)
+  for (std::size_t stage = 0; stage < stages; ++stage)
     for (const Controlled &c : misses(problem, stage))
       if (!failed_in(problem, results, stage))
         words.push_back(fmt::format("{} {} of stage {}", c.side, c.quantity, stage + 1));

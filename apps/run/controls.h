@@ -19,15 +19,17 @@ Json controls_of_stage(const coupling::PlatenTest &problem, std::size_t stage);
 // Adds `controls`, the same of all stages with their names, to a test whose scene writes none.
 void add_controls(Json &to, const coupling::PlatenTest &problem);
 
-// Of a stage that has ended: "stage 1 (ended by: time) has not reached what it asked: top stress 3.42 of 5
+// Of a stage that is over: "stage 1 (ended by: time) has not reached what it asked: top stress 3.42 of 5
 // MPa"; empty where all was met.
 std::string words_of_misses(const coupling::PlatenTest &problem, std::size_t stage);
 // Whether the specimen had its peak in that stage: after it, it need not bear what is asked.
 bool failed_in(const coupling::PlatenTest &problem, const Results &results, std::size_t stage);
-// "target", or "target; not reached: top stress of stage 1", of stages that have ended and in which the
-// specimen did not fail.
+// How many stages are over: with the test its last one is.
+std::size_t stages_over(const coupling::PlatenTest &problem, bool test_ended);
+// "target", or "target; not reached: top stress of stage 1", of so many stages from the first, where the
+// specimen did not fail in them.
 std::string with_misses(const std::string &ended_by, const coupling::PlatenTest &problem,
-                        const Results &results);
+                        const Results &results, std::size_t stages);
 
 // What speaks against a figure that is read off at a time (s): stresses and pressures that were asked, and
 // not reached, until then, unless something else has been asked along the same axis since. A rate that was

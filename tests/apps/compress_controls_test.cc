@@ -225,5 +225,19 @@ TEST_F(Controls, a_specimen_that_fails_is_no_stress_that_was_missed) {
   EXPECT_TRUE(contains(log, "(the specimen failed in it)")) << log;
 }
 
+// The end of a test is that of its last stage.
+TEST_F(Controls, a_rate_that_was_not_reached_when_the_test_ended_is_told) {
+  const nlohmann::json s =
+      crush("run", {"Loading/Stage 1/Axial = circumferential rate 200 1/s", "Loading/Stop at residual = 0.6",
+                    "Loading/Stage 1/Until = circumferential strain 5 %, strain 4 %"});
+  EXPECT_EQ(s["ended_by"], "stop at residual");
+  expect_control(s["stages"][0]["controls"][0], "circumferential rate", "axial", "1/s", false);
+  const std::string log = content_of(folder_ / "run/run.log");
+  EXPECT_TRUE(contains(log,
+                       "stage 1 (ended by: the end of the test) has not reached what it asked: "
+                       "axial circumferential rate "))
+      << log;
+}
+
 } // namespace
 } // namespace platen::apps::testing

@@ -138,7 +138,8 @@ TEST_F(NotFinite, no_figure_is_valid_that_rests_on_a_column_with_a_number_that_i
         // Forces of bonds count from a tenth of the peak to the peak.
         if (column.missing == HistoryColumn::Missing::without_forces && (row < 4 || row > 14)) continue;
         // The cell's pressure is 0 in row 0 alone.
-        if (column.missing == HistoryColumn::Missing::without_pressure && row == 0 && std::isnan(bad)) continue;
+        if (column.missing == HistoryColumn::Missing::without_pressure && row == 0 && std::isnan(bad))
+          continue;
         const Json s = with({row}, [&](double &v) { v = bad; });
         for (const std::string &figure : rest) {
           EXPECT_TRUE(s.at(figure).is_null() ||
