@@ -36,7 +36,7 @@ RUNS = {
     "pressure through a sleeve": [*SLEEVE, "Loading/Target strain = 0.002"],
     "pressure through a sleeve, around rubble": [*SLEEVE, *WEAK],
     "pressure on a path": PATH,
-    "pressure on a path, skin comes loose": [*PATH, *WEAK],
+    "pressure on a path, weak bonds": [*PATH, *WEAK],
     "share of the axial stress": [*BOX, "Loading/Stage 1/Lateral = share of Axial 0.2"],
     "share, side platens too slow": [*BOX, "Loading/Stage 1/Lateral = share of Axial 1", "Loading/Stage 1/Until = time 30 us"],
     "circumferential rate": [*LED, "Loading/Stage 1/Axial = circumferential rate 2 1/s"],
