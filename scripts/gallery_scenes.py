@@ -44,10 +44,10 @@ GROUPS = [
         Scene("flat_dry", COMPRESS, "stress_strain",
               "Flat specimens fail as under confining pressure: nearly twice the strength of the slender cylinder, a "
               "peak because bonds yield, and a slow decrease of the stress."),
-        Scene("standard_cylinder", COMPRESS, "",
+        Scene("standard_cylinder", COMPRESS, "outward_displacement",
               "The cylinder of the standards, concrete_dry three times as large with its spheres: the same stresses and "
               "the same hourglass, for it is spheres across the width that count."),
-        Scene("standard_cube", COMPRESS, "",
+        Scene("standard_cube", COMPRESS, "outward_displacement",
               "The cube of the standards, of the spheres of the standard cylinder: a third stronger than it, as the "
               "small cube is."),
         Scene("brittle_concrete_dry", COMPRESS, "outward_displacement",
