@@ -191,6 +191,17 @@ TEST_F(WithoutLedger, energies_are_missing_and_speak_against_no_figure) {
             std::string::npos);
 }
 
+// Of a run that was cut off before its peak nobody knows how fast it would have come there.
+TEST(Slow, is_not_judged_before_a_run_has_come_to_its_end) {
+  const Results without_peak;
+  for (const std::string by : {"signal", "failure", "script"})
+    for (const std::string missed : {"", "; not reached: top stress of stage 1"})
+      EXPECT_FALSE(knows_slowness(without_peak, by + missed)) << by << missed;
+  EXPECT_FALSE(knows_slowness(without_peak, ""));
+  for (const char *by : {"target", "target; not reached: top stress of stage 1", "stop at residual"})
+    EXPECT_TRUE(knows_slowness(without_peak, by)) << by;
+}
+
 // Each number of the engine that is none stops the run where it is measured.
 TEST_F(NotFinite, a_number_of_the_engine_stops_the_run_by_the_name_of_its_column) {
   const Sampler sampler(problem_);
