@@ -77,7 +77,8 @@ std::string words_of(const Target &t) {
 double unit_on_screen(TargetKind kind) {
   if (kind == TargetKind::young_modulus) return 1e9;
   if (kind == TargetKind::strain_at_peak) return 1e-3;
-  return key_of(kind).find("strength") != std::string::npos ? 1e6 : 1;
+  const std::string key = key_of(kind), pascal = "_pa";
+  return key.size() > pascal.size() && key.substr(key.size() - pascal.size()) == pascal ? 1e6 : 1;
 }
 
 } // namespace platen::apps

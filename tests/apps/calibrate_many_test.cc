@@ -139,6 +139,18 @@ TEST(ManyTargets, a_short_specimen_is_compared_with_one_twice_as_high_as_wide) {
                                                "compression slenderness_2", "elastic"}));
 }
 
+// As the words have it: a ratio of strengths is no strength.
+TEST(ManyTargets, are_told_in_the_unit_of_their_words) {
+  for (int k = 0; k <= static_cast<int>(TargetKind::secant_ratio); ++k) {
+    const auto kind = static_cast<TargetKind>(k);
+    const std::string words = words_of(target_of(kind, 1));
+    const auto in = [&](const char *unit) {
+      return words.find(std::string(", ") + unit) != std::string::npos;
+    };
+    EXPECT_EQ(unit_on_screen(kind), in("GPa") ? 1e9 : in("MPa") ? 1e6 : in("mm/m") ? 1e-3 : 1) << words;
+  }
+}
+
 // Strength and tension that both go with the product of limits and contact friction.
 // What ends at zero has its effect all the same, and is zero exactly.
 TEST(ManyTargets, a_friction_angle_of_zero_is_sensed_by_a_tenth_of_its_room) {
