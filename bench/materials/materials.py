@@ -380,7 +380,7 @@ Strength between dry steel platens (friction 0.57) over that without friction, p
 strength of a cylinder of 1 over that of 2, both between dry platens; Poisson's ratio from the start to 40 % of the strength. **Bold: outside the range of
 the laboratory**, which is of concrete alone: Hughes and Bahramian 1967, four mixes (cubes of 102 mm, prisms of 2.39, taken for 2 here); ASTM C42, a factor
 for 14 to 41 MPa without scatter, 5 % to both sides; fib Model Code 2020, a design value, 15 %. No source has any of these of a rock or of
-the mortar, nor a slenderness of 78 MPa. A figure that a material does not meet, or that nobody has measured of it, is not among its `Bond/Calibrated figures` (`friction`, `slenderness`, `secant
+the mortar, nor a slenderness of 78 MPa. "2 of 5": the others of five came to no peak within the strain of the test. A figure that a material does not meet, or that nobody has measured of it, is not among its `Bond/Calibrated figures` (`friction`, `slenderness`, `secant
 ratio`): `summary.json` has no Poisson's ratio of a compression test then, and studies have no gain and no ratio, with that reason.
 """
 NOTES = """
