@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <set>
 
 #include "base/parallel.h"
@@ -266,6 +267,31 @@ TEST(confinement, only_what_has_come_loose_takes_from_the_pressure) {
   set_state(read, state_of(c));
   EXPECT_TRUE(same_state(read, c));
   EXPECT_EQ(read.pressure(), c.pressure());
+}
+
+// A lump at the mantle, cut from the rest where it stands: from a twentieth of the spheres on it is a body.
+TEST(confinement, a_piece_is_pressed_from_a_twentieth_of_the_spheres_on) {
+  for (const double share : {0.035, 0.07}) {
+    Body body(packed_cylinder());
+    Confinement c = body.confinement();
+    const Vector3 at = body.particles.position[static_cast<std::size_t>(c.particle(c.size() / 2))];
+    const auto far = [&](int i) { return norm(body.particles.position[static_cast<std::size_t>(i)] - at); };
+    std::vector<int> by_distance(body.particles.size());
+    std::iota(by_distance.begin(), by_distance.end(), 0);
+    std::sort(by_distance.begin(), by_distance.end(), [&](int a, int b) { return far(a) < far(b); });
+    const auto count = static_cast<std::ptrdiff_t>(share * static_cast<double>(by_distance.size()));
+    const std::set<int> lump(by_distance.begin(), by_distance.begin() + count);
+    std::vector<BondBreak> breaks;
+    for (std::size_t k = 0; k < body.bonds.size(); ++k)
+      if (lump.count(body.bonds.first[k]) != lump.count(body.bonds.second[k]))
+        breaks.push_back({static_cast<int>(k), BondState::broken_in_tension});
+    body.bonds.break_rows(breaks, body.particles, 0.0);
+    press(c, body, 3e6, 0, 0, true);
+    int pressed = 0;
+    for (std::size_t k = 0; k < c.size(); ++k)
+      pressed += static_cast<int>(lump.count(c.particle(k)));
+    EXPECT_EQ(pressed > 0, share > 0.05) << pressed << " of " << count;
+  }
 }
 
 TEST(confinement, a_specimen_without_lateral_spheres_is_refused) {
