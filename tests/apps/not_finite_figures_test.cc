@@ -202,6 +202,23 @@ TEST(Slow, is_not_judged_before_a_run_has_come_to_its_end) {
     EXPECT_TRUE(knows_slowness(without_peak, by)) << by;
 }
 
+// Each bound by itself: as much as is allowed, and a hundredth more.
+TEST(Slow, is_what_keeps_each_bound) {
+  const auto signs = [](double Slowness::*of, double value, bool bent = false) {
+    Slowness s;
+    s.*of = value;
+    return reasons_not_quasi_static(s, bent).size();
+  };
+  for (const auto &[of, most] :
+       {std::pair{&Slowness::kinetic, 0.005}, {&Slowness::unbalanced, 0.015}, {&Slowness::inertial, 1e-3}}) {
+    EXPECT_EQ(signs(of, most), 0u) << most;
+    EXPECT_EQ(signs(of, 1.01 * most), 1u) << most;
+  }
+  EXPECT_EQ(signs(&Slowness::wave_transits, 60), 0u);
+  EXPECT_EQ(signs(&Slowness::wave_transits, 59.4), 1u);
+  EXPECT_EQ(signs(&Slowness::wave_transits, 1, true), 0u);
+}
+
 // Each number of the engine that is none stops the run where it is measured.
 TEST_F(NotFinite, a_number_of_the_engine_stops_the_run_by_the_name_of_its_column) {
   const Sampler sampler(problem_);
