@@ -190,9 +190,10 @@ TEST_F(LoadsOfStages, platens_that_part_on_any_side_load_nothing_on) {
   add({asked_of(SideGroup::top, Ask::rate, 0.1)});
   add({asked_of(SideGroup::top, Ask::rate, 0.1), asked_of(SideGroup::bottom, Ask::stress, 5e6)});
   add({asked_of(SideGroup::top, Ask::rate, 0.1), asked_of(SideGroup::bottom, Ask::stress, 0)});
+  add({asked_of(SideGroup::top, Ask::stress, 0), asked_of(SideGroup::bottom, Ask::rate, 0.1)});
   const auto test = made(true);
-  EXPECT_EQ(loads_of(*test),
-            (std::vector<Loads>{Loads::none, Loads::none, Loads::by_closure, Loads::by_stress, Loads::none}));
+  EXPECT_EQ(loads_of(*test), (std::vector<Loads>{Loads::none, Loads::none, Loads::by_closure,
+                                                 Loads::by_stress, Loads::none, Loads::none}));
 }
 
 } // namespace
