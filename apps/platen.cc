@@ -1,17 +1,23 @@
-// platen: one word for all programs. `platen compress SCENE.prm` becomes `platen-compress SCENE.prm`; by
-// itself it names the programs, the version and the scenes that came with them.
+// All programs that read scenes: platen-compress and the others are links to this one, and `platen compress`
+// is the same. By itself it reads the command line and the scene, answers --help, --version and
+// --print-parameters and refuses what is wrong, in some milliseconds; only for the work it loads the engine,
+// whose hundreds of libraries take a fifth of a second. `platen` alone lists programs, version and scenes.
+#include <dlfcn.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <vector>
 
-#include "apps/scene/apps.h"
+#include "apps/engine.h"
+#include "apps/programs.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
+#include "apps/scene/rank.h"
 #include "apps/scene/shipped.h"
 #include "apps/scene/values.h"
 #include "apps/scene/version.h"
@@ -21,20 +27,33 @@ namespace {
 using namespace platen::apps;
 namespace fs = std::filesystem;
 
-struct Program {
-  std::string word, purpose;
-};
+const std::string prefix = "platen-", report = "report";
 
-std::vector<Program> programs() {
-  std::vector<Program> all;
-  const std::string prefix = "platen-";
-  for (const AppKind kind : {AppKind::pack, AppKind::bonds, AppKind::bar, AppKind::compress,
-                             AppKind::brazilian, AppKind::calibrate, AppKind::study}) {
-    const AppDescription app = description_of(kind);
-    all.push_back({app.name.substr(prefix.size()), app.purpose});
-  }
-  all.push_back({"report", report_purpose});
-  return all;
+fs::path own_folder() {
+  std::error_code none;
+  return fs::read_symlink("/proc/self/exe", none).parent_path();
+}
+
+// Throws std::runtime_error if the library is not there or does not fit.
+decltype(&platen_engine) engine() {
+  // A run has threads of its own (-t). Those of the library for dense matrices would take a tenth of a second
+  // to start and end, and could add in another order on a machine with more cores.
+  ::setenv("OPENBLAS_NUM_THREADS", "1", 0);
+  std::error_code none;
+  const fs::path built = own_folder() / "engine.so",
+                 file = fs::exists(built, none) ? built : own_folder() / PLATEN_ENGINE;
+  void *library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL); // global: plug-ins of MPI need its symbols
+  void *entry = library == nullptr ? nullptr : ::dlsym(library, "platen_engine");
+  if (entry == nullptr)
+    throw std::runtime_error(std::string(::dlerror()) + ". It belongs to platen: install both anew");
+  return reinterpret_cast<decltype(&platen_engine)>(entry);
+}
+
+int start(const Program &program, int argc, char **argv) {
+  if (program.on_ranks && launched_with_others()) return engine()(argc, argv, program, nullptr, nullptr);
+  return run_app(argc, argv, program, [&](const CommandLine &line, const Scene &scene) {
+    return engine()(argc, argv, program, &line, &scene);
+  });
 }
 
 // In lines of at most 80 characters, all but the first behind `indent` blanks.
@@ -65,9 +84,12 @@ std::string help() {
       "       platen scenes [NAME]           the scenes that came with it; the path of one\n"
       "       platen --version [--json]\n"
       "       platen --help\n\nPrograms, each with --help and a man page:\n";
-  for (const Program &program : programs())
-    text += "  " + program.word + std::string(12 - program.word.size(), ' ') + wrapped(program.purpose, 14) +
-            '\n';
+  const auto add = [&](const std::string &word, const std::string &purpose) {
+    text += "  " + word + std::string(12 - word.size(), ' ') + wrapped(purpose, 14) + '\n';
+  };
+  for (const Program &one : programs())
+    add(one.name.substr(prefix.size()), one.purpose);
+  add(report, report_purpose);
   return text;
 }
 
@@ -98,7 +120,7 @@ int list_scenes(const std::vector<std::string> &names) {
                 (nearest.empty() ? "" : " Did you mean \"" + nearest + "\"?") + " platen scenes lists them.");
 }
 
-int tell_version(const std::vector<std::string> &words) {
+int print_version(const std::vector<std::string> &words) {
   const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
   for (const std::string &word : words)
     if (word != "--json" && word != "--version") return refuse(word + " does not go with --version.");
@@ -106,22 +128,40 @@ int tell_version(const std::vector<std::string> &words) {
   return status_done;
 }
 
-// Becomes the program; comes back only where it cannot.
-int become(const Program &program, char **argv) {
-  std::error_code none;
-  const std::string name = "platen-" + program.word;
-  const fs::path path = fs::read_symlink("/proc/self/exe", none).parent_path() / name;
-  std::string first = name;
-  argv[1] = first.data();
+// Becomes platen-report, a program of its own; returns only if that cannot be started.
+int become_report(char **argv) {
+  const fs::path path = own_folder() / (prefix + report);
+  std::string name = prefix + report;
+  argv[1] = name.data();
   ::execv(path.c_str(), argv + 1);
   std::cerr << "error: " << path.string() << " cannot be started: " << std::strerror(errno)
             << ". It belongs to platen: install both anew\n";
   return status_numerics;
 }
 
+int start_named(const std::string &word, int argc, char **argv) {
+  std::vector<std::string> known{"scenes", "--help", "--version", report};
+  for (const Program &one : programs()) {
+    if (one.name == prefix + word) {
+      std::string name = one.name;
+      argv[1] = name.data();
+      return start(one, argc - 1, argv + 1);
+    }
+    known.push_back(one.name.substr(prefix.size()));
+  }
+  const std::string nearest = nearest_word(word, known);
+  return refuse("PROGRAM = " + word + " is not known." +
+                (nearest.empty() ? "" : " Did you mean \"" + nearest + "\"?") + " Allowed: " + joined(known) +
+                ".");
+}
+
 } // namespace
 
 int main(int argc, char **argv) {
+  obey_early_signals();
+  const std::string called = fs::path(argv[0]).filename().string();
+  for (const Program &one : programs())
+    if (one.name == called) return start(one, argc, argv);
   if (argc < 2) {
     std::cerr << help();
     return status_bad_input;
@@ -132,15 +172,8 @@ int main(int argc, char **argv) {
     std::cout << help();
     return status_done;
   }
-  if (word == "--version" || (word == "--json" && !rest.empty())) return tell_version(rest);
+  if (word == "--version" || (word == "--json" && !rest.empty())) return print_version(rest);
   if (word == "scenes") return list_scenes(rest);
-  std::vector<std::string> known{"scenes", "--help", "--version"};
-  for (const Program &program : programs()) {
-    if (program.word == word) return become(program, argv);
-    known.push_back(program.word);
-  }
-  const std::string nearest = nearest_word(word, known);
-  return refuse("PROGRAM = " + word + " is not known." +
-                (nearest.empty() ? "" : " Did you mean \"" + nearest + "\"?") + " Allowed: " + joined(known) +
-                ".");
+  if (word == report) return become_report(argv);
+  return start_named(word, argc, argv);
 }

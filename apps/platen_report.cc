@@ -15,7 +15,7 @@
 #include "apps/report/report.h"
 #include "apps/report/state_listing.h"
 #include "apps/report/target_study.h"
-#include "apps/scene/apps.h"
+#include "apps/programs.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/rank.h"
 #include "apps/scene/version.h"

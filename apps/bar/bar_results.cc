@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "apps/bar/bar_section.h"
 #include "apps/io/numbers.h"
 #include "apps/run/history.h"
 #include "apps/run/problem_setup.h"
@@ -148,7 +149,7 @@ std::vector<CsvCell> bar_row(const BarSample &s, BarLoad load, const BarResults 
 }
 
 Json summary_of(const Scene &scene, const BarResults &r, const std::string &status) {
-  Json s = summary_head(scene, "platen-bar", status, effects_on(scene, AppKind::bar));
+  Json s = summary_head(scene, "platen-bar", status, effects_on(scene));
   add_figures(s, r);
   s["mean_radius_m"] = r.bar.mean_radius;
   s["length_m"] = r.bar.length();
@@ -162,7 +163,7 @@ Json summary_of(const Scene &scene, const BarResults &r, const std::string &stat
   s["density_kg_m3"] = r.bar.mass_per_length / r.bar.bounding.area();
   s["axial_rigidity_n"] = r.pulled.axial_rigidity;
   s["youngs_modulus_effective_pa"] = r.pulled.axial_rigidity / r.bar.effective.area();
-  if (scene.bar_test.bulk_moduli) {
+  if (bar_test_of(scene).bulk_moduli) {
     s["bulk"]["youngs_modulus_pa"] = r.bulk.youngs;
     s["bulk"]["poisson_ratio"] = r.bulk.poisson;
     s["bulk"]["anisotropy"] = r.bulk.anisotropy;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/bar/bar_section.h"
 #include "apps/bar/dynamic_test.h"
 #include "apps/bar/static_test.h"
 #include "apps/io/csv_writer.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/bar/bar_section.h"
 #include "apps/scene/units.h"
 #include "base/parallel.h"
 #include "dem/measure/spectrum.h"

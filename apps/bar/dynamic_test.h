@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/bar/bar.h"
+#include "apps/bar/bar_section.h"
 #include "apps/bar/static_test.h"
 #include "base/largest.h"
 #include "dem/measure/bond_network.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/bar/bar_results.h"
+#include "apps/bar/bar_section.h"
 #include "apps/io/progress.h"
 #include "apps/io/stop_signal.h"
 #include "apps/run/app_output.h"
@@ -50,9 +51,10 @@ public:
 private:
   void test_loads();
   void test_impact();
-  bool dynamic() const { return scene_.bar_test.method != BarMethod::at_rest; }
+  bool dynamic() const { return bar_test_of(scene_).method != BarMethod::at_rest; }
   bool strikes() const {
-    return dynamic() && (scene_.bar_test.load == BarLoad::impact || scene_.bar_test.load == BarLoad::all);
+    return dynamic() &&
+           (bar_test_of(scene_).load == BarLoad::impact || bar_test_of(scene_).load == BarLoad::all);
   }
   long steps_of(BarLoad load) const;
   long steps_of_impact() const;
@@ -77,8 +79,8 @@ void BarRun::measure() {
   r.particles = model_.particles.size();
   r.bonds = model_.bonds->size();
   r.packing_fraction = volume_of_spheres(specimen_) / specimen_.shape.volume();
-  r.bar = measure_bar(model_.particles, *model_.bonds, specimen_.shape, scene_.bar_test.end_depth,
-                      scene_.bar_test.side == BarSide::x);
+  r.bar = measure_bar(model_.particles, *model_.bonds, specimen_.shape, bar_test_of(scene_).end_depth,
+                      bar_test_of(scene_).side == BarSide::x);
   r.pulled = pull_bar(model_, r.bar, specimen_.shape);
   if (!(r.pulled.axial_rigidity > 0))
     refuse(scene_, "Specimen/Height",
@@ -92,13 +94,14 @@ void BarRun::measure() {
   r.time_step_reason = r.time.reason;
   planned_ = strikes() ? steps_of_impact() : 0;
   if (dynamic())
-    for (const BarLoad load : loads_of(scene_.bar_test.load))
+    for (const BarLoad load : loads_of(bar_test_of(scene_).load))
       planned_ += steps_of(load);
 }
 
 long BarRun::steps_of(BarLoad load) const {
-  return static_cast<long>(std::ceil(
-      scene_.bar_test.periods / (frequency_of(results_.oscillating_rod(true), load) * results_.time.step)));
+  return static_cast<long>(
+      std::ceil(bar_test_of(scene_).periods /
+                (frequency_of(results_.oscillating_rod(true), load) * results_.time.step)));
 }
 
 long BarRun::steps_of_impact() const {
@@ -143,7 +146,7 @@ void BarRun::finish(const dem::Model &model, const Motion &motion) {
 }
 
 void BarRun::test_loads() {
-  const BarTest &test = scene_.bar_test;
+  const BarTest &test = bar_test_of(scene_);
   for (const BarLoad load : loads_of(test.load)) {
     if (signal_ != 0) return;
     LoadResult result;
@@ -170,7 +173,7 @@ void BarRun::test_impact() {
   if (!strikes() || signal_ != 0) return;
   dem::Model struck(specimen_, settings_);
   const double speed = results_.rod(false).wave_speed();
-  results_.struck_velocity = scene_.bar_test.strain * speed;
+  results_.struck_velocity = bar_test_of(scene_).strain * speed;
   Clocking clocking{results_.time.impact_step, steps_of_impact(), 1};
   clocking.every = steps_between_samples(
       scene_, clocking.step, clocking.step * static_cast<double>(clocking.steps) / samples_of_an_impact);
@@ -187,7 +190,7 @@ int BarRun::carry_out() {
   output_.log.info("{}", description());
   history_ = std::make_unique<CsvWriter>(output_.paths.history(), bar_columns());
   progress_ = std::make_unique<Progress>(output_.log);
-  if (scene_.bar_test.bulk_moduli) results_.bulk = bulk_moduli(model_, results_.bar, specimen_.shape);
+  if (bar_test_of(scene_).bulk_moduli) results_.bulk = bulk_moduli(model_, results_.bar, specimen_.shape);
   test_loads();
   test_impact();
   progress_.reset();

@@ -1,5 +1,6 @@
 #include "apps/bar/static_test.h"
 
+#include "apps/bar/bar_section.h"
 #include "dem/stable_step.h"
 
 namespace platen::apps {

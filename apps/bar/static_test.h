@@ -3,6 +3,7 @@
 #pragma once
 
 #include "apps/bar/bar.h"
+#include "apps/bar/bar_section.h"
 #include "dem/measure/bond_network.h"
 #include "dem/measure/stress.h"
 

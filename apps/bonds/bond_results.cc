@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/bonds/pair_section.h"
 #include "apps/io/csv_writer.h"
 #include "apps/io/numbers.h"
 #include "dem/laws/normal_contact.h"
@@ -13,7 +14,7 @@ namespace platen::apps {
 namespace {
 
 bool slides(const Scene &scene) {
-  return scene.pair_test.path == PairPath::shear;
+  return pair_test_of(scene).path == PairPath::shear;
 }
 double load_of(const Scene &scene, const RigReading &row) {
   return turns(scene) ? row.moment : row.force;
@@ -172,7 +173,7 @@ std::vector<std::string> effects_of(const Scene &scene) {
 } // namespace
 
 bool turns(const Scene &scene) {
-  return scene.pair_test.path == PairPath::bending || scene.pair_test.path == PairPath::twisting;
+  return pair_test_of(scene).path == PairPath::bending || pair_test_of(scene).path == PairPath::twisting;
 }
 bool is_prescribed(const Scene &scene) {
   return scene.bond.remembers();
@@ -213,7 +214,7 @@ std::string report(const Scene &scene, const std::vector<BondRun> &runs) {
 
 Json summary_of(const Scene &scene, const std::vector<BondRun> &runs, int threads, double seconds) {
   TestFigures f;
-  f.particles = static_cast<std::size_t>(scene.pair_test.particles);
+  f.particles = static_cast<std::size_t>(pair_test_of(scene).particles);
   f.bonds = runs.front().bonds;
   f.time_step = runs.front().time_step;
   f.time_step_reason = runs.front().time_step_reason;
@@ -231,7 +232,7 @@ Json summary_of(const Scene &scene, const std::vector<BondRun> &runs, int thread
     list.push_back(summary_of(scene, run));
   }
   Json s = summary_head(scene, "platen-bonds", "done", effects_of(scene));
-  s["path"] = word_of(pair_paths, scene.pair_test.path);
+  s["path"] = word_of(pair_paths, pair_test_of(scene).path);
   add_figures(s, f);
   s["largest_difference"] = largest;
   s["runs"] = list;

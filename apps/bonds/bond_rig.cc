@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/bonds/pair_section.h"
 #include "apps/run/model_setup.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
@@ -44,14 +45,14 @@ BondSection section_of(const dem::ModelSettings &settings, double radius) {
 } // namespace
 
 bool is_pyramid(const Scene &scene) {
-  return scene.pair_test.particles == 3;
+  return pair_test_of(scene).particles == 3;
 }
 
 dem::Specimen touching_spheres(const Scene &scene) {
   const double r = scene.specimen.sphere_radius;
   dem::Specimen s;
   if (is_pyramid(scene)) {
-    const double half = r * (scene.pair_test.base_bond ? 1 : 1 + base_clearance);
+    const double half = r * (pair_test_of(scene).base_bond ? 1 : 1 + base_clearance);
     s.centre = {{0, 0, std::sqrt(4 * r * r - half * half)}, {-half, 0, 0}, {half, 0, 0}};
   } else {
     s.centre = {{0, 0, 2 * r}, {0, 0, 0}};
@@ -77,7 +78,7 @@ BondRig::BondRig(const Scene &scene, double modulus, double stiffness_ratio)
     : scene_(scene),
       section_(section_of(rig_settings(scene, modulus, stiffness_ratio), scene.specimen.sphere_radius)),
       coordinates_(scene.model.rotation ? 6 : 3),
-      rolls_(is_pyramid(scene) && scene.pair_test.plate == PairPlate::rolling),
+      rolls_(is_pyramid(scene) && pair_test_of(scene).plate == PairPlate::rolling),
       model_(touching_spheres(scene), rig_settings(scene, modulus, stiffness_ratio)) {
   const std::size_t spheres = model_.particles.size();
   row_.resize(spheres);
@@ -89,9 +90,9 @@ BondRig::BondRig(const Scene &scene, double modulus, double stiffness_ratio)
     for (const std::size_t c : coordinates)
       fixed_[sphere][c] = false;
   };
-  const PairPath path = scene.pair_test.path;
+  const PairPath path = pair_test_of(scene).path;
   if (is_pyramid(scene)) {
-    if (scene.pair_test.plate != PairPlate::sticking)
+    if (pair_test_of(scene).plate != PairPlate::sticking)
       for (const std::size_t base : {1u, 2u})
         set_free(base, {0, 4});
   } else if (path == PairPath::shear || path == PairPath::twisting) {

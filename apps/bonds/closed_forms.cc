@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/bonds/pair_section.h"
 #include "base/pi.h"
 
 namespace platen::apps {

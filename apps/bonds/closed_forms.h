@@ -1,7 +1,7 @@
 // What two and three bonded spheres of equal radius do under load, by hand: what platen-bonds compares with.
 #pragma once
 
-#include "apps/scene/scene.h"
+#include "apps/bonds/pair_section.h"
 #include "base/pi.h"
 
 namespace platen::apps {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/bonds/pair_section.h"
 #include "apps/bonds/run_bonds.h"
 
 namespace platen::apps {
@@ -97,7 +98,7 @@ std::vector<InterfacePlace> turning_places(const PairTest &test, const Interface
 } // namespace
 
 InterfaceTest::InterfaceTest(const Scene &scene, double modulus, double stiffness_ratio)
-    : test_(scene.pair_test),
+    : test_(pair_test_of(scene)),
       radius_(scene.specimen.sphere_radius),
       model_(touching_spheres(scene), settings_of(scene, modulus, stiffness_ratio)),
       section_(section_of_one(*model_.bonds, modulus)),

@@ -9,6 +9,7 @@
 #include "apps/bonds/interface_forms.h"
 #include "apps/bonds/load_path.h"
 #include "apps/bonds/moment_forms.h"
+#include "apps/bonds/pair_section.h"
 
 namespace platen::apps {
 

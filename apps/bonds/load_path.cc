@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include "apps/bonds/pair_section.h"
 
 namespace platen::apps {
 namespace {
@@ -14,7 +15,7 @@ constexpr double first_step = 1e-3; // of the largest load, until a bond's utili
 
 class Walk {
 public:
-  Walk(BondRig &rig, const Scene &scene) : rig_(rig), test_(scene.pair_test) {
+  Walk(BondRig &rig, const Scene &scene) : rig_(rig), test_(pair_test_of(scene)) {
     const bool turns = test_.path == PairPath::bending || test_.path == PairPath::twisting;
     const double radius = scene.specimen.sphere_radius;
     by_load_ = !std::isnan(test_.force);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/bonds/bond_rig.h"
+#include "apps/bonds/pair_section.h"
 
 namespace platen::apps {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/bonds/bond_results.h"
+#include "apps/bonds/pair_section.h"
 #include "apps/io/specimen_csv.h"
 
 namespace platen::apps {
@@ -16,7 +17,7 @@ bool is_beam(const Scene &scene) {
 
 // What this test cannot do, or what its closed forms know nothing of.
 void check(const Scene &scene) {
-  const PairTest &test = scene.pair_test;
+  const PairTest &test = pair_test_of(scene);
   if (!is_prescribed(scene) && !is_beam(scene) && !scene.bond.is<dem::ParallelBond>())
     refuse(scene, "Effects/Bond", "has no closed form here. Allowed: any other.");
   if (!scene.bond.has("stiffness_ratio") && test.stiffness_ratios.size() > 1)
@@ -50,7 +51,7 @@ void check(const Scene &scene) {
 }
 
 std::string description(const Scene &scene) {
-  const PairTest &t = scene.pair_test;
+  const PairTest &t = pair_test_of(scene);
   std::string text = title_of(scene);
   text += fmt::format("\n  {} spheres of radius {:g} m, {}", t.particles, scene.specimen.sphere_radius,
                       word_of(pair_paths, t.path));
@@ -84,7 +85,7 @@ BondRun run_one(const Scene &scene, double modulus, double ratio) {
   run.path = follow_path(rig, scene);
   run.add(rig.model(), rig.steps());
   run.fracture_work = rig.model().works.fracture;
-  const PairTest &t = scene.pair_test;
+  const PairTest &t = pair_test_of(scene);
   run.strain_ratio_by_hand = not_given;
   if (is_pyramid(scene)) {
     const PyramidResponse by_hand =
@@ -104,8 +105,8 @@ BondRun run_one(const Scene &scene, double modulus, double ratio) {
 std::vector<BondRun> run_bond_tests(const Scene &scene) {
   check(scene);
   std::vector<BondRun> runs;
-  for (const double modulus : scene.pair_test.moduli)
-    for (const double ratio : scene.pair_test.stiffness_ratios)
+  for (const double modulus : pair_test_of(scene).moduli)
+    for (const double ratio : pair_test_of(scene).stiffness_ratios)
       runs.push_back(run_one(scene, modulus, ratio));
   return runs;
 }
@@ -116,12 +117,14 @@ int run_bonds(const CommandLine &command, const Scene &scene) {
     throw InputError("--resume: a bond test takes seconds and keeps no checkpoint; run it anew");
   AppOutput output(command, scene);
   if (command.dry_run && is_prescribed(scene)) {
-    const InterfaceTest test(scene, scene.pair_test.moduli.front(), scene.pair_test.stiffness_ratios.front());
+    const InterfaceTest test(scene, pair_test_of(scene).moduli.front(),
+                             pair_test_of(scene).stiffness_ratios.front());
     fmt::print("{}  led without inertia: no time step\n", description(scene));
     return status_done;
   }
   if (command.dry_run) {
-    const BondRig rig(scene, scene.pair_test.moduli.front(), scene.pair_test.stiffness_ratios.front());
+    const BondRig rig(scene, pair_test_of(scene).moduli.front(),
+                      pair_test_of(scene).stiffness_ratios.front());
     fmt::print("{}  time step {:.4g} s ({})\n", description(scene), rig.time_step(), rig.time_step_reason());
     return status_done;
   }

@@ -1,4 +1,5 @@
 #include "apps/calibrate/abacus.h"
+#include "apps/calibrate/calibrate_section.h"
 #include "apps/io/numbers.h"
 #include "apps/io/seed_statistics.h"
 
@@ -10,7 +11,7 @@ constexpr const char *columns =
     "youngs_modulus_platen_pa,poisson_ratio,voigt_modulus_pa,voigt_poisson,reuss_modulus_pa,reuss_poisson";
 
 std::vector<Choice> combinations(const Scene &scene) {
-  const Calibrate &c = scene.calibrate;
+  const Calibrate &c = calibrate_of(scene);
   std::vector<Choice> all;
   for (const double multiplier : or_own(c.radius_multipliers, scene.model.bond_layout.radius_multiplier))
     for (const double ratio : or_own(c.stiffness_ratios, scene.bond.number("stiffness_ratio")))

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include "apps/calibrate/calibrate_section.h"
 
 namespace platen::apps {
 namespace {

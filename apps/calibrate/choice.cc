@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/calibrate/calibrate_section.h"
 #include "apps/scene/units.h"
 #include "base/pi.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene/scene.h"
+#include "apps/calibrate/calibrate_section.h"
 
 namespace platen::apps {
 

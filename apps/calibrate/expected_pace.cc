@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include "apps/calibrate/calibrate_section.h"
 
 namespace platen::apps {
 namespace {
@@ -54,7 +55,7 @@ std::vector<ExpectedPace> expected_paces(const Scene &scene, const Goals &goals)
     const double height = led_to.specimen.height, rate = led_to.loading.rate,
                  transits = strain * height / rate / (height / wave);
     if (std::isnan(transits)) continue;
-    const bool own_rate = test.kind == TestKind::tension && given(scene.calibrate.tension_rate);
+    const bool own_rate = test.kind == TestKind::tension && given(calibrate_of(scene).tension_rate);
     paces.push_back({test.name(), rate, transits,
                      given(test.rate) ? "Rate of its target"
                      : own_rate       ? "Calibrate/Tension rate"

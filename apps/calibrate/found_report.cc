@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/calibrate/calibrate_section.h"
 #include "apps/io/csv_writer.h"
 
 namespace platen::apps {
@@ -161,7 +162,7 @@ std::vector<std::string> gaps(const Goals &goals, const Judged &judged) {
 
 std::string findings(const Goals &goals, const Scene &scene, const Judged &judged) {
   const Sensitivities &at = judged.found.sensitivities;
-  const Analysis a = analyse(goals, scene.calibrate.tolerance, at);
+  const Analysis a = analyse(goals, calibrate_of(scene).tolerance, at);
   std::vector<std::string> targets;
   for (const std::size_t k : at.goals)
     targets.push_back(goals.all()[k].words);
@@ -180,7 +181,7 @@ std::string findings(const Goals &goals, const Scene &scene, const Judged &judge
 
 void tell_found(const Goals &goals, const Scene &scene, const Judged &judged, Json &s) {
   const Sensitivities &at = judged.found.sensitivities;
-  const Analysis a = analyse(goals, scene.calibrate.tolerance, at);
+  const Analysis a = analyse(goals, calibrate_of(scene).tolerance, at);
   for (const KnobFacts &knob : knob_facts())
     if (knob.knob != Knob::poisson_ratio) s["found"][knob.column] = judged.found.choice[knob.knob];
   s["training"] = json_of(goals, judged.training);

@@ -1,6 +1,7 @@
 // What targets are called.
 #include <fmt/format.h>
 
+#include "apps/calibrate/calibrate_section.h"
 #include "apps/calibrate/goals.h"
 
 namespace platen::apps {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include "apps/calibrate/calibrate_section.h"
 
 namespace platen::apps {
 namespace {
@@ -64,8 +65,8 @@ int order_of(const Goal &goal) { // the longest first
 
 } // namespace
 
-Goals::Goals(const Scene &scene) : tolerance_(scene.calibrate.tolerance) {
-  for (const Target &target : scene.calibrate.targets)
+Goals::Goals(const Scene &scene) : tolerance_(calibrate_of(scene).tolerance) {
+  for (const Target &target : calibrate_of(scene).targets)
     add(target);
   for (const TargetKind kind : {TargetKind::young_modulus, TargetKind::poisson_ratio})
     if (std::none_of(goals_.begin(), goals_.end(), [&](const Goal &g) { return g.target.kind == kind; })) {

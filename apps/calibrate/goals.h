@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/calibrate/calibrate_section.h"
 #include "apps/calibrate/target_curve.h"
 #include "apps/calibrate/trial.h"
 #include "apps/io/seed_statistics.h"

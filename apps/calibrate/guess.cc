@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/calibrate/calibrate_section.h"
 #include "apps/calibrate/space.h"
 
 namespace platen::apps {

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "apps/calibrate/abacus.h"
+#include "apps/calibrate/calibrate_section.h"
 #include "apps/calibrate/expected_pace.h"
 #include "apps/calibrate/found_report.h"
 #include "apps/calibrate/trials.h"
@@ -40,7 +41,7 @@ std::string pace_of_tests(const Scene &scene, const Goals &goals) {
 }
 
 std::string description(const Scene &scene, const Goals *goals) {
-  const Calibrate &c = scene.calibrate;
+  const Calibrate &c = calibrate_of(scene);
   return title_of(scene) +
          fmt::format("\n  {}: {} seeds to calibrate on, {} to judge by\n", word_of(calibrate_modes, c.mode),
                      c.seeds, goals != nullptr ? c.verification_seeds : 0) +
@@ -124,7 +125,7 @@ void write_found(const CommandLine &command, const Scene &scene, const Goals &go
     overrides.push_back(one);
   if (!scene.bond.calibrated.figures.empty())
     overrides.emplace_back("Bond/Calibrated figures="); // of other bonds
-  const Scene found = read_scene(command.scene, overrides, AppKind::calibrate);
+  const Scene found = read_scene(command.scene, overrides, *scene.program);
   const std::string comment =
       fmt::format("Found by platen-calibrate from {} ({}).\n{}{}", found.name, version_line(),
                   table_of(goals, judged), findings(goals, scene, judged));
@@ -139,7 +140,7 @@ void write_found(const CommandLine &command, const Scene &scene, const Goals &go
 
 int run_calibrate(const CommandLine &command, const Scene &scene) {
   std::optional<Goals> goals; // a curve that is none is found before anything is written
-  if (scene.calibrate.mode == CalibrateMode::search) goals.emplace(scene);
+  if (calibrate_of(scene).mode == CalibrateMode::search) goals.emplace(scene);
   const std::string said = description(scene, goals ? &*goals : nullptr);
   if (command.dry_run) {
     fmt::print("{}", said);
@@ -150,8 +151,8 @@ int run_calibrate(const CommandLine &command, const Scene &scene) {
   catch_stop_signals();
   output.open();
   output.log.info("{}", said);
-  const CalibrateMode mode = scene.calibrate.mode;
-  Json s = summary_head(scene, "platen-calibrate", "done", effects_on(scene, AppKind::calibrate));
+  const CalibrateMode mode = calibrate_of(scene).mode;
+  Json s = summary_head(scene, "platen-calibrate", "done", effects_on(scene));
   s["mode"] = word_of(calibrate_modes, mode);
   s["threads"] = output.threads();
   std::vector<std::string> unmet;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/calibrate/calibrate_section.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps {
@@ -103,7 +104,7 @@ void Pass::take_differences(const Eigen::VectorXd &x, double size) {
 
 Found Pass::operator()() {
   std::optional<Eigen::VectorXd> x = model_.start();
-  const int most = elastic_ ? most_elastic : scene_.calibrate.most_trials;
+  const int most = elastic_ ? most_elastic : calibrate_of(scene_).most_trials;
   for (int in_vain = 0; x && !done() && trials_ < most;) {
     if (!try_all({*x})) {
       if (!too_fast_.empty()) break; // weaker bonds fail sooner still
@@ -111,7 +112,7 @@ Found Pass::operator()() {
       x = space_.scaled(*x, Knob::tensile_strength, weaker);
       continue;
     }
-    const bool differences = scene_.calibrate.differences && !elastic_;
+    const bool differences = calibrate_of(scene_).differences && !elastic_;
     if (differences && differences_ == 0 && !done()) take_differences(*x, difference);
     x = model_.next();
     if (x || done() || !differences || differences_ > 1 || trials_ >= most) continue;
@@ -143,7 +144,7 @@ Found Pass::found() const {
 
 // Strengths of brittle bonds are proportional to theirs.
 bool proportional(const Scene &scene) {
-  const Calibrate &c = scene.calibrate;
+  const Calibrate &c = calibrate_of(scene);
   const bool strengths = std::none_of(c.targets.begin(), c.targets.end(), [](const Target &target) {
     return target.kind == TargetKind::strain_at_peak || target.kind == TargetKind::curve;
   });

@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "apps/calibrate/calibrate_section.h"
 #include "apps/calibrate/space.h"
 
 namespace platen::apps {

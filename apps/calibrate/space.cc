@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include "apps/calibrate/calibrate_section.h"
 
 namespace platen::apps {
 namespace {
@@ -39,7 +40,7 @@ bool bends(const Scene &scene) {
 }
 
 std::vector<Knob> needed_knobs(const Scene &scene) {
-  const Wants wants(scene.calibrate);
+  const Wants wants(calibrate_of(scene));
   const bool both = wants.compressive && wants.tensile;
   std::vector<Knob> knobs;
   if (wants.young) knobs.push_back(Knob::modulus);
@@ -56,7 +57,7 @@ std::vector<Knob> needed_knobs(const Scene &scene) {
 } // namespace
 
 std::vector<Knob> knobs_of(const Scene &scene) {
-  const Calibrate &c = scene.calibrate;
+  const Calibrate &c = calibrate_of(scene);
   const std::vector<Knob> all = c.free.empty() ? needed_knobs(scene) : c.free;
   return Space(scene, choice_of(scene), all).knobs();
 }
@@ -70,7 +71,7 @@ Space::Space(const Scene &scene, const Choice &start, const std::vector<Knob> &k
 }
 
 Space::Axis Space::axis_of(const Scene &scene, Knob knob) const {
-  const Calibrate &c = scene.calibrate;
+  const Calibrate &c = calibrate_of(scene);
   const double own = start_[knob];
   const auto or_else = [](double bound, double otherwise) { return given(bound) ? bound : otherwise; };
   switch (knob) {

@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "apps/calibrate/calibrate_section.h"
 #include "apps/calibrate/goals.h"
 #include "apps/calibrate/response_model.h"
 

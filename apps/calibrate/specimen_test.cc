@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include "apps/calibrate/calibrate_section.h"
 
 namespace platen::apps {
 namespace {
@@ -26,7 +27,7 @@ void set_friction(Platens &platens, double friction) {
 
 // Of the wanted tensile over compressive strength where both are wanted of the scene.
 double tension_rate(const Scene &scene) {
-  const Calibrate &c = scene.calibrate;
+  const Calibrate &c = calibrate_of(scene);
   if (given(c.tension_rate)) return c.tension_rate;
   double compressive = not_given, tensile = not_given;
   for (const Target &target : c.targets) {

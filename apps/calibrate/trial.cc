@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "apps/calibrate/calibrate_section.h"
 #include "apps/io/stop_signal.h"
 #include "apps/run/at_peak.h"
 #include "apps/run/controls.h"
@@ -192,7 +193,7 @@ TrialResult run_test(const Scene &scene, const dem::Specimen &specimen, const Ch
   try {
     coupling::PlatenTest problem(placed(specimen, test), problem_settings(s));
     if (!test.loads()) {
-      const coupling::StaticPress p = coupling::press_statically(problem, scene.calibrate.strain);
+      const coupling::StaticPress p = coupling::press_statically(problem, calibrate_of(scene).strain);
       result.young_modulus = p.youngs_modulus();
       result.platen_modulus = p.platen_modulus();
       result.poisson_ratio = p.poisson_ratio();

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "apps/calibrate/calibrate_section.h"
 #include "apps/io/file.h"
 #include "apps/io/numbers.h"
 #include "apps/io/sha256.h"
@@ -101,15 +102,15 @@ void in_order(std::size_t count, const Work &work) {
 } // namespace
 
 std::vector<unsigned long> training_seeds(const Scene &scene) {
-  std::vector<unsigned long> seeds(static_cast<std::size_t>(scene.calibrate.seeds));
+  std::vector<unsigned long> seeds(static_cast<std::size_t>(calibrate_of(scene).seeds));
   std::iota(seeds.begin(), seeds.end(), scene.general.seed);
   return seeds;
 }
 
 std::vector<unsigned long> unseen_seeds(const Scene &scene) {
-  std::vector<unsigned long> seeds(static_cast<std::size_t>(scene.calibrate.verification_seeds));
+  std::vector<unsigned long> seeds(static_cast<std::size_t>(calibrate_of(scene).verification_seeds));
   std::iota(seeds.begin(), seeds.end(),
-            scene.general.seed + static_cast<unsigned long>(scene.calibrate.seeds));
+            scene.general.seed + static_cast<unsigned long>(calibrate_of(scene).seeds));
   return seeds;
 }
 

@@ -83,7 +83,7 @@ std::vector<SceneChange> changes_of_scene(const Scene &scene, const OutputPaths 
   const std::string path = paths.scene().string();
   if (!std::filesystem::is_regular_file(path))
     throw InputError(path + ": error: is missing: the folder holds nothing to resume; leave out --resume");
-  return differences(texts_of(completed_scene_text(path, paths.folder.string())),
+  return differences(texts_of(completed_scene_text(path, paths.folder.string(), *scene.program)),
                      texts_of(scene_text(scene, paths.folder)));
 }
 

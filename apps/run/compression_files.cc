@@ -80,9 +80,8 @@ std::string CompressionRun::description() const {
   text += text_of_cover(*test_);
   text += text_of(scene_.general.quality, *scene_.parameters);
   text += text_of(scene_.platens);
-  text += fmt::format("  effects on:  {}\n  effects off: {}\n",
-                      fmt::join(effects_on(scene_, AppKind::compress), ", "),
-                      fmt::join(effects_off(scene_, AppKind::compress), ", "));
+  text += fmt::format("  effects on:  {}\n  effects off: {}\n", fmt::join(effects_on(scene_), ", "),
+                      fmt::join(effects_off(scene_), ", "));
   text += fmt::format("  time step {:.4g} s ({}), {:.0f} steps to the target strain\n", test_->time_step(),
                       test_->time_step_reason(), expected_steps_);
   if (const coupling::SkinPressure *pressed = test_->skin())

@@ -5,8 +5,8 @@
 
 namespace platen::apps {
 
-int run_app_on_ranks(int argc, char **argv, const AppDescription &app, const AppBody &body) {
-  return run_app(argc, argv, app, body);
+int run_app_on_ranks(int argc, char **argv, const Program &program, const AppBody &body) {
+  return run_app(argc, argv, program, body);
 }
 
 std::unique_ptr<dem::Exchange> exchange_of_ranks() {

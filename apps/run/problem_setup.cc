@@ -6,7 +6,7 @@
 
 #include "apps/run/model_setup.h"
 #include "apps/scene/errors.h"
-#include "apps/scene/readers.h"
+#include "apps/scene/program.h"
 #include "apps/scene/regular_file.h"
 #include "dem/laws/normal_contact.h"
 #include "fem/gmsh.h"
@@ -69,10 +69,12 @@ std::vector<Effect> effects(const Scene &s) {
   return all;
 }
 
-std::vector<std::string> chosen(const Scene &scene, AppKind app, bool on) {
+// A disc is told all that a specimen between platens may have.
+std::vector<std::string> chosen(const Scene &scene, bool on) {
   std::vector<std::string> words;
+  const bool all = scene.program->presses == Presses::discs;
   for (const Effect &e : effects(scene))
-    if (e.on == on && reads(app, e.entry)) words.push_back(e.word);
+    if (e.on == on && (all || scene.program->reads_entry(e.entry))) words.push_back(e.word);
   return words;
 }
 
@@ -101,11 +103,11 @@ coupling::PlatenSettings platen_settings(const Scene &scene) {
 
 } // namespace
 
-std::vector<std::string> effects_on(const Scene &scene, AppKind app) {
-  return chosen(scene, app, true);
+std::vector<std::string> effects_on(const Scene &scene) {
+  return chosen(scene, true);
 }
-std::vector<std::string> effects_off(const Scene &scene, AppKind app) {
-  return chosen(scene, app, false);
+std::vector<std::string> effects_off(const Scene &scene) {
+  return chosen(scene, false);
 }
 
 coupling::PlatenTestSettings problem_settings(const Scene &scene) {

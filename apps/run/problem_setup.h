@@ -12,7 +12,7 @@ coupling::PlatenTestSettings settings_without_meshes(const Scene &scene);
 
 // Words of the effects that a scene has on, and of those it has off, of what a program reads, for --dry-run
 // and summary.json.
-std::vector<std::string> effects_on(const Scene &scene, AppKind app);
-std::vector<std::string> effects_off(const Scene &scene, AppKind app);
+std::vector<std::string> effects_on(const Scene &scene);
+std::vector<std::string> effects_off(const Scene &scene);
 
 } // namespace platen::apps

@@ -15,15 +15,13 @@
 
 namespace platen::apps {
 
-int run_app_on_ranks(int argc, char **argv, const AppDescription &app, const AppBody &body) {
+int run_app_on_ranks(int argc, char **argv, const Program &program, const AppBody &body) {
   constexpr std::chrono::milliseconds to_leave{300}; // for the other ranks
-  AppDescription on_ranks = app;
-  on_ranks.require_same = require_same_on_ranks;
   int status = status_done;
   {
     const dist::Session session;
     this_rank() = {session.rank(), session.ranks(), session.ranks_here(), dist::Session::end_all};
-    status = run_app(argc, argv, on_ranks, body);
+    status = run_app(argc, argv, program, body, require_same_on_ranks);
   }
   // All have come to the end. A launcher ends a job of which one process tells a failure, and may wait for
   // ever where others leave at that moment: the first one alone tells it, as the last to leave.

@@ -16,7 +16,7 @@
 namespace platen::apps {
 
 // run_app on all ranks that a launcher has started, or on the one.
-int run_app_on_ranks(int argc, char **argv, const AppDescription &app, const AppBody &body);
+int run_app_on_ranks(int argc, char **argv, const Program &program, const AppBody &body);
 
 // To cut a specimen over the ranks; null where there is one.
 std::unique_ptr<dem::Exchange> exchange_of_ranks();

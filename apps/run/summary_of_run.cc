@@ -191,8 +191,8 @@ Json summary_of_run(const std::string &status, const Scene &scene, const couplin
                     const Results &results, const RunCosts &costs) {
   const dem::Model &model = problem.model;
   const double particles = static_cast<double>(model.particles.size());
-  Json s = summary_head(scene, app_of(problem), status, effects_on(scene, AppKind::compress));
-  s["effects_off"] = effects_off(scene, AppKind::compress);
+  Json s = summary_head(scene, app_of(problem), status, effects_on(scene));
+  s["effects_off"] = effects_off(scene);
   s["ended_by"] = costs.ended_by.empty() ? Json() : Json(costs.ended_by);
   s["test"] = word_of(loading_tests, scene.loading.test);
   s["loaded_axis"] = std::string(1, "xyz"[results.axis()]);

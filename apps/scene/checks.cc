@@ -26,7 +26,7 @@ void SceneCheck::readable(const std::string &path, const std::string &file, cons
 void SceneCheck::needed() const {
   for (const Entry &entry : parameters_.entries())
     for (const auto &needed : entry.needed) {
-      const std::string why = entry.text.empty() ? needed({scene_, parameters_, app_}) : "";
+      const std::string why = entry.text.empty() ? needed({scene_, parameters_, program_}) : "";
       if (!why.empty()) refuse(entry.path, "is not set: " + why + " Allowed: " + limits(entry) + ".");
     }
 }
@@ -36,9 +36,9 @@ std::string resolved_path(const Entry &entry) {
   return (std::filesystem::path(entry.origin.file).parent_path() / entry.text).string();
 }
 
-Faults check_scene(Scene &scene, const Parameters &parameters, AppKind app) {
+Faults check_scene(Scene &scene, const Parameters &parameters, const Program &program) {
   Faults found;
-  SceneCheck check(scene, parameters, app, found);
+  SceneCheck check(scene, parameters, program, found);
   check.specimen();
   check.effects();
   check.stages();
@@ -54,10 +54,7 @@ Faults check_scene(Scene &scene, const Parameters &parameters, AppKind app) {
   check.loading();
   check.cycles();
   check.cell();
-  check.pair_test();
-  check.calibrate();
-  check.bar_test();
-  check.study();
+  if (program.check != nullptr) program.check(check);
   check.scale();
   check.notes();
   return found;

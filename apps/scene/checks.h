@@ -7,7 +7,7 @@
 namespace platen::apps {
 
 // Contradictions and what is missing, with their places; adds to scene.notes.
-Faults check_scene(Scene &scene, const Parameters &parameters, AppKind app);
+Faults check_scene(Scene &scene, const Parameters &parameters, const Program &program);
 
 // The path of a file entry as the program can open it: relative to the folder of the file that sets it, or,
 // from the command line, to the current folder.

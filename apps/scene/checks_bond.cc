@@ -10,11 +10,11 @@ namespace platen::apps {
 void SceneCheck::bond() const {
   const Gap &gap = scene_.model.bond_layout.gap;
   const double radius = scene_.specimen.sphere_radius;
-  if (app_ != AppKind::pack && !gap.relative && given(radius) && gap.value >= radius)
+  if (program_.bonds && !gap.relative && given(radius) && gap.value >= radius)
     refuse("Bond/Gap",
            "is as large as Specimen/Sphere radius = " + parameters_.at("Specimen/Sphere radius").text +
                ": a bare number is metres. Did you mean \"" + shortest_text(gap.value) + " R_min\"?");
-  if (scene_.bond.scattered && app_ == AppKind::bonds)
+  if (scene_.bond.scattered && !program_.packs)
     refuse("Bond/Strength scatter", "leaves no bond of a known strength to test. Allowed: none.");
   size_correction();
   calibrated_packing();
@@ -32,7 +32,7 @@ void SceneCheck::size_correction() const {
   const SizeCorrection &size = scene_.bond.size;
   const double radius = scene_.specimen.sphere_radius;
   if (!(size.reference > 0)) return;
-  if (app_ == AppKind::bonds || app_ == AppKind::bar)
+  if (program_.presses == Presses::nothing && program_.bonds)
     refuse("Bond/Calibrated radius", "is of specimens between platens. Allowed: 0.");
   if (!given(radius))
     refuse("Bond/Calibrated radius", "needs the mean radius: Specimen/Sphere radius is not set.");
@@ -61,7 +61,7 @@ void SceneCheck::calibrated_packing() const {
   const std::optional<PackingKind> wanted = scene_.bond.calibrated.packing;
   const PackingKind packing = scene_.specimen.packing;
   if (!wanted || packing == *wanted || packing == PackingKind::file) return;
-  if (app_ == AppKind::bonds || app_ == AppKind::pack) return; // no packing, no bonds
+  if (!program_.packs || !program_.bonds) return; // no packing, no bonds
   refuse("Specimen/Packing",
          "is not what the bonds are calibrated for, " + set_to("Bond/Calibrated packing") +
              ": with it they are another material. Allowed: " +
@@ -71,7 +71,7 @@ void SceneCheck::calibrated_packing() const {
 void SceneCheck::phases() const {
   const PhasesSection &phases = scene_.phases;
   if (phases.by == PhasesBy::none) return;
-  if (app_ == AppKind::bonds)
+  if (!program_.packs)
     refuse("Phases/By", "needs a packed specimen, of which platen-bonds has none. Allowed: none.");
   if (!scene_.bond.bonded())
     refuse("Phases/By", "tells bonds apart, but Effects/Bond = none. Allowed: none.");
@@ -85,7 +85,7 @@ void SceneCheck::contact() const {
     if (no_bond && stiffness.kind == Stiffness::Kind::of_bond)
       refuse(path, "is a multiple of the bond's, but Effects/Bond = none. Allowed: " + instead + ".");
   };
-  if (scene_.effects.contact == dem::NormalContact::linear && app_ != AppKind::pack)
+  if (scene_.effects.contact == dem::NormalContact::linear && program_.bonds)
     check("Contact/Stiffness", scene_.contact.stiffness, "\"4e5 N/m\", \"0.01 bulk\"");
   if (loads() && !scene_.hertz_on_platens())
     check("Platens/Stiffness", scene_.platens.stiffness, "\"4e5 N/m\"");

@@ -38,7 +38,7 @@ void SceneCheck::seat() const {
   const auto refuse_seat = [&](const std::string &why) {
     refuse("Platens/Top/Seat", why + " Allowed: fixed.");
   };
-  if (app_ != AppKind::compress && app_ != AppKind::study) refuse_seat("is for platen-compress.");
+  if (!program_.presses_specimens()) refuse_seat("is for platen-compress.");
   if (scene_.loading.bending()) refuse_seat("does not go with Loading/Test = three point bending.");
   if (scene_.model.scheme != dem::Scheme::velocity_verlet)
     refuse_seat("needs Integration/Scheme = velocity verlet.");

@@ -34,7 +34,7 @@ void SceneCheck::weakening(coupling::Side of) const {
 
 void SceneCheck::platens() const {
   const Platens &platens = scene_.platens;
-  if (loads() && app_ != AppKind::study) surfaces();
+  if (loads() && !situation().given_by_program("Platens/Surface")) surfaces();
   for (const coupling::Side side : sides_of_scene)
     if (platens.has(side)) friction(side), weakening(side);
   const bool tension = scene_.loading.test == LoadingTest::tension, stress = scene_.loading.servo;
@@ -55,7 +55,7 @@ void SceneCheck::platens() const {
 
 void SceneCheck::machine() const {
   const auto refuse_spring = [&](const std::string &why) { refuse("Platens/Machine stiffness", why); };
-  if (app_ == AppKind::calibrate)
+  if (program_.presses == Presses::trials)
     refuse_spring(
         "is not for platen-calibrate: it looks for what holds under any machine. Allowed: not set.");
   if (scene_.loading.start_strain > 0)
@@ -89,8 +89,7 @@ void SceneCheck::surfaces() const {
 void SceneCheck::deformable_platens() const {
   const Loading &loading = scene_.loading;
   const auto refuse_kind = [&](const std::string &why) { refuse("Platens/Kind", why + " Allowed: rigid."); };
-  if (app_ != AppKind::compress && app_ != AppKind::study && app_ != AppKind::brazilian)
-    refuse_kind("is for platen-compress and platen-brazilian.");
+  if (program_.presses == Presses::trials) refuse_kind("is for platen-compress and platen-brazilian.");
   if (scene_.model.scheme != dem::Scheme::velocity_verlet)
     refuse_kind("needs Integration/Scheme = velocity verlet.");
   if (loading.start_strain > 0)
@@ -115,7 +114,7 @@ void SceneCheck::meshes() const {
 }
 
 void SceneCheck::loading() const {
-  if (Situation{scene_, parameters_, app_}.rate_by_transits()) wave_transits();
+  if (situation().rate_by_transits()) wave_transits();
   if (scene_.loading.rate_multiplier > 1 && !scene_.bond.bonded())
     refuse("Loading/Hurry", "needs bonds: they tell when the specimen fails. Allowed: 1.");
 }
@@ -136,8 +135,7 @@ void SceneCheck::start() const {
   const Loading &loading = scene_.loading;
   if (!(loading.start_strain > 0)) return;
   const auto refuse_start = [&](const std::string &why) { refuse("Loading/Start strain", why); };
-  if (app_ != AppKind::compress && app_ != AppKind::study)
-    refuse_start("is for platen-compress. Allowed: 0.");
+  if (!program_.presses_specimens()) refuse_start("is for platen-compress. Allowed: 0.");
   if (loading.test != LoadingTest::compression)
     refuse_start("needs Loading/Test = compression: the solve presses. Allowed: 0.");
   if (loading.confinement != ConfinementKind::none)
@@ -156,7 +154,7 @@ void SceneCheck::start() const {
 }
 
 void SceneCheck::splitting() const {
-  if (app_ != AppKind::brazilian) return;
+  if (program_.presses != Presses::discs) return;
   if (scene_.loading.test != LoadingTest::compression)
     refuse("Loading/Test", "does not go with platen-brazilian. Allowed: compression.");
   if (scene_.loading.confinement != ConfinementKind::none)
@@ -169,8 +167,7 @@ void SceneCheck::bending() const {
   const Platens &platens = scene_.platens;
   const SpecimenSection &specimen = scene_.specimen;
   const std::string with = "does not go with Loading/Test = three point bending. Allowed: ";
-  if (app_ != AppKind::compress && app_ != AppKind::study)
-    refuse("Loading/Test", "bends bars: for platen-compress.");
+  if (!program_.presses_specimens()) refuse("Loading/Test", "bends bars: for platen-compress.");
   const bool round = specimen.shape == SpecimenShape::cylinder || specimen.round();
   if (round && specimen.packing != PackingKind::file)
     refuse("Specimen/Shape", with + "box, rectangular bar.");
@@ -207,7 +204,7 @@ void SceneCheck::cell() const {
     refuse("Loading/Test",
            "needs Loading/Confinement = particles, sleeve: the lateral surface is pressed too.");
   if (!loading.confined()) return;
-  const bool varied = Situation{scene_, parameters_, app_}.varied("Loading/Confining pressure");
+  const bool varied = situation().given_by_program("Loading/Confining pressure");
   if (loads() && !loading.staged() && !varied && !(loading.cell->pressure > 0))
     refuse("Loading/Confinement", "needs Loading/Confining pressure > 0.");
   if (loads() && !scene_.bond.bonded())
@@ -218,7 +215,7 @@ void SceneCheck::cell() const {
            "does not go with Loading/Confinement: the pressure holds the platen at first, then it moves. "
            "Allowed: motion.");
   if (!loading.sleeved()) return;
-  if (app_ != AppKind::compress && app_ != AppKind::study)
+  if (!program_.presses_specimens())
     refuse("Loading/Confinement", "is for platen-compress. Allowed: none, particles.");
   if (scene_.specimen.packing != PackingKind::file && scene_.specimen.shape != SpecimenShape::cylinder)
     refuse("Loading/Confinement", "goes around a cylinder. Allowed: none, particles.");

@@ -8,7 +8,7 @@
 
 namespace platen::apps {
 
-void SceneCheck::note(const std::string &path, const std::string &why) {
+void SceneCheck::note(const std::string &path, const std::string &why) const {
   const Entry &entry = parameters_.at(path);
   if (!entry.changed() || entry.origin.file.empty()) return;
   scene_.notes.push_back(entry.origin.text() + ": note: " + path + " = " + entry.text +
@@ -18,41 +18,11 @@ void SceneCheck::note(const std::string &path, const std::string &why) {
 void SceneCheck::notes_of_declarations() {
   for (const Entry &entry : parameters_.entries())
     for (const auto &idle : entry.idle) {
-      const std::string why = idle({scene_, parameters_, app_});
+      const std::string why = idle(situation());
       if (why.empty()) continue;
       note(entry.path, why);
       break;
     }
-}
-
-void SceneCheck::bar_notes() {
-  if (app_ != AppKind::bar) return;
-  for (const char *key : {"Specimen/Ends", "Specimen/Seat"})
-    note(key, "a bar is held by the spheres of its end");
-  for (const char *key : {"Loading/Axial rate", "Loading/Target strain", "Platens/Friction static"})
-    note(key, "a bar meets no platens");
-  note("Output/Fields every", "platen-bar writes no frames");
-  note("Checkpoint/Every", "platen-bar writes no checkpoints");
-  if (scene_.bar_test.method == BarMethod::at_rest) {
-    note("Bar test/Periods", "Bar test/Method = static");
-    if (scene_.effects.contact) note("Effects/Contact", "Bar test/Method = static");
-  }
-  if (scene_.bar_test.load != BarLoad::bending && scene_.bar_test.load != BarLoad::all)
-    note("Bar test/Bent along", "nothing is bent");
-}
-
-void SceneCheck::pair_notes() {
-  if (!scene_.bond.remembers()) {
-    for (const char *key : {"Pair test/Turns", "Pair test/Pressure", "Pair test/Slip ratio"})
-      note(key, "Effects/Bond is not elasto damage plastic");
-    return;
-  }
-  for (const char *key :
-       {"Integration/Damping", "Integration/Damping form", "Integration/Time step", "Bond/Damping"})
-    note(key, "an elasto damage plastic bond is led without inertia");
-  if (scene_.pair_test.path != PairPath::shear) note("Pair test/Pressure", "Pair test/Path is not shear");
-  if (scene_.pair_test.path != PairPath::combined)
-    note("Pair test/Slip ratio", "Pair test/Path is not combined");
 }
 
 // A few percent of the radius are a few per mille of the modulus, by the exponents of concrete.
@@ -85,16 +55,9 @@ void SceneCheck::radius_note() {
 void SceneCheck::notes() {
   notes_of_declarations();
   size_note();
-  bar_notes();
   radius_note();
   if (!scene_.loading.confined() && !parameters_.at("Loading/Confining pressure").origin.file.empty())
     note("Loading/Confinement", "Loading/Confining pressure = 0");
-  if (app_ == AppKind::calibrate && !given(scene_.calibrate.triaxial_strength))
-    note("Calibrate/Confining pressure", "Calibrate/Triaxial strength is not set");
-  if (app_ == AppKind::bonds && scene_.pair_test.particles == 2)
-    for (const char *key : {"Pair test/Plate", "Pair test/Base bond"})
-      note(key, "Pair test/Particles = 2");
-  if (app_ == AppKind::bonds) pair_notes();
 }
 
 } // namespace platen::apps

@@ -44,7 +44,7 @@ std::string SceneCheck::set_to(const std::string &path) const {
 
 void SceneCheck::proportions() const {
   const SpecimenSection &s = scene_.specimen;
-  if (app_ == AppKind::bonds || s.packing == PackingKind::file || !given(s.height)) return;
+  if (!program_.packs || s.packing == PackingKind::file || !given(s.height)) return;
   const double width = s.round() ? 2 * s.radius : std::fmin(s.width_x, s.width_y);
   const std::string of =
       s.round() ? "Specimen/Radius" : "Specimen/Width " + std::string(s.width_x <= s.width_y ? "x" : "y");
@@ -116,7 +116,7 @@ void SceneCheck::bodies() const {
 // Strips stand for lines: 0.05 to 0.1 of the diameter in standards.
 void SceneCheck::strips() const {
   const double diameter = 2 * scene_.specimen.radius, strip = scene_.platens.strip_width;
-  if (app_ == AppKind::brazilian && given(diameter) && strip > widest_strip * diameter)
+  if (program_.presses == Presses::discs && given(diameter) && strip > widest_strip * diameter)
     refuse("Platens/Strip width", "is " + number(strip / diameter) + " of the diameter that " +
                                       set_to("Specimen/Radius") +
                                       " gives: such a disc is crushed, not split. Allowed: up to " +
@@ -139,11 +139,12 @@ void SceneCheck::stage_rates() const {
 void SceneCheck::step_count() const {
   const Loading &l = scene_.loading;
   const SpecimenSection &s = scene_.specimen;
-  if (!loads() || app_ == AppKind::calibrate || l.servo || l.staged() || l.hydrostatic() || l.bending())
+  if (!loads() || program_.presses == Presses::trials || l.servo || l.staged() || l.hydrostatic() ||
+      l.bending())
     return;
-  const double length = app_ == AppKind::brazilian ? 2 * s.radius : s.height,
+  const double length = program_.presses == Presses::discs ? 2 * s.radius : s.height,
                crossing = s.sphere_radius / wave_speed(); // s, of a radius
-  const bool by_transits = Situation{scene_, parameters_, app_}.rate_by_transits();
+  const bool by_transits = situation().rate_by_transits();
   const double seconds = by_transits ? 1e3 * l.target_strain * l.wave_transits * length / wave_speed()
                                      : l.target_strain * length / l.rate;
   const std::string rate = by_transits ? "Loading/Wave crossings" : "Loading/Axial rate";
@@ -191,7 +192,7 @@ void SceneCheck::stresses() const {
 // Absolute ones beside the bond of two mean spheres.
 void SceneCheck::stiffnesses() const {
   const double radius = scene_.specimen.sphere_radius;
-  if (!scene_.bond.bonded() || !given(radius) || app_ == AppKind::pack) return;
+  if (!scene_.bond.bonded() || !given(radius) || !program_.bonds) return;
   const dem::BondLayout &layout = scene_.model.bond_layout;
   const bool own = layout.radius_rule == dem::RadiusRule::given && given(layout.radius);
   const double thick =
@@ -210,36 +211,15 @@ void SceneCheck::stiffnesses() const {
   if (loads() && !scene_.hertz_on_platens()) compare("Platens/Stiffness", scene_.platens.stiffness);
 }
 
-void SceneCheck::pair_scale() const {
-  if (app_ != AppKind::bonds || !given(scene_.specimen.sphere_radius)) return;
-  const PairTest &test = scene_.pair_test;
-  const double radius = scene_.specimen.sphere_radius;
-  const auto far = [&](const char *path, double displacement) {
-    if (std::abs(displacement) > 2 * radius)
-      refuse(path, "moves a sphere by more than its size, " + set_to("Specimen/Sphere radius") +
-                       ". Allowed: up to twice that.");
-  };
-  far("Pair test/Displacement", test.displacement);
-  for (const double turn : test.turns)
-    far("Pair test/Turns", turn);
-  if (test.moduli.empty()) return;
-  const double strain =
-      test.force / (pi * radius * radius * *std::max_element(test.moduli.begin(), test.moduli.end()));
-  if (strain > 1)
-    refuse("Pair test/Force", "strains bonds between spheres of " + set_to("Specimen/Sphere radius") +
-                                  " by " + number(strain) + ". Allowed: up to 1.");
-}
-
 void SceneCheck::scale() const {
   proportions();
-  if (app_ == AppKind::pack) return;
+  if (!program_.bonds) return;
   waves();
   bodies();
   strips();
   step_count();
   stresses();
   stiffnesses();
-  pair_scale();
 }
 
 } // namespace platen::apps

@@ -14,8 +14,7 @@ void SceneCheck::sides() const {
     refuse_sides("does not go with " + path + " = " + parameters_.at(path).text + ". Allowed: two, or " +
                  path + " = " + allowed + ".");
   };
-  if (app_ != AppKind::compress && app_ != AppKind::study)
-    refuse_sides("is for platen-compress. Allowed: two.");
+  if (!program_.presses_specimens()) refuse_sides("is for platen-compress. Allowed: two.");
   const bool round = specimen.shape == SpecimenShape::cylinder || specimen.shape == SpecimenShape::disc;
   if (specimen.packing != PackingKind::file && (round || specimen.round())) against("Specimen/Shape", "box");
   if (loading.test != LoadingTest::compression) against("Loading/Test", "compression");

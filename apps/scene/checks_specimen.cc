@@ -9,9 +9,9 @@ void SceneCheck::cross_section() const {
   const bool width = given(specimen.width_x) || given(specimen.width_y);
   const bool disc = specimen.shape == SpecimenShape::disc;
   const bool stated = specimen.packing != PackingKind::file || parameters_.at("Specimen/Shape").changed();
-  if (stated && disc && app_ != AppKind::brazilian && app_ != AppKind::pack)
+  if (stated && disc && program_.presses != Presses::discs && program_.bonds)
     refuse("Specimen/Shape", "lies on its rim, for platen-brazilian. Allowed: cylinder, box, bar.");
-  if (stated && app_ == AppKind::brazilian && !disc && specimen.shape != SpecimenShape::cylinder)
+  if (stated && program_.presses == Presses::discs && !disc && specimen.shape != SpecimenShape::cylinder)
     refuse("Specimen/Shape", "cannot be laid on its rim. Allowed: disc, cylinder.");
   const std::string which = given(specimen.width_x) ? "Specimen/Width x" : "Specimen/Width y";
   if ((disc || specimen.shape == SpecimenShape::cylinder) && width)
@@ -41,9 +41,8 @@ void SceneCheck::spheres_fit() const {
 
 void SceneCheck::specimen() const {
   const SpecimenSection &specimen = scene_.specimen;
-  if (app_ == AppKind::bonds)
-    need("Specimen/Sphere radius", specimen.sphere_radius, "the test needs a grain.");
-  if (app_ == AppKind::bonds && scene_.model.density_of == dem::DensityOf::solid)
+  if (!program_.packs) need("Specimen/Sphere radius", specimen.sphere_radius, "the test needs a grain.");
+  if (!program_.packs && scene_.model.density_of == dem::DensityOf::solid)
     refuse("Material/Density of",
            "needs a packed specimen, of which platen-bonds has none. Allowed: grains.");
   if (specimen.radius_spread > 0 && specimen.radius_distribution != RadiusKind::uniform)
@@ -52,7 +51,7 @@ void SceneCheck::specimen() const {
     refuse("Specimen/Seat", "needs Specimen/Ends = ground: only a ground sphere has a flat face.");
   if (specimen.seat && !scene_.model.rotation)
     refuse("Specimen/Seat", "needs Effects/Rotation = on: a seat resists rocking.");
-  if (app_ == AppKind::bonds) return;
+  if (!program_.packs) return;
   cross_section();
   if (specimen.packing == PackingKind::file) {
     readable("Specimen/File", specimen.file, "Packing = file takes the spheres from it.");
@@ -72,7 +71,7 @@ void SceneCheck::specimen() const {
   }
   if (!given(specimen.sphere_radius)) return;
   spheres_fit();
-  const bool rim = app_ == AppKind::brazilian;
+  const bool rim = program_.presses == Presses::discs;
   const double extent = rim ? 2 * specimen.radius : specimen.height;
   if (specimen.ends == dem::EndPreparation::ground && given(extent) &&
       2 * specimen.end_layer * specimen.sphere_radius > extent)
@@ -96,7 +95,7 @@ void SceneCheck::effects() const {
     if (!rotation) refuse("Effects/Rotation", with);
     if (!std::get<dem::ParallelBond::Parameters>(bond.laws).moments) refuse("Effects/Bond moments", with);
   }
-  if (!bond.bonded() && !touching && app_ != AppKind::pack)
+  if (!bond.bonded() && !touching && program_.bonds)
     refuse("Effects/Contact", "leaves nothing that acts between grains, because Effects/Bond = none too.");
 }
 

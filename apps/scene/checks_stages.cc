@@ -41,7 +41,7 @@ void SceneCheck::stages() const {
   const auto refuse_stages = [&](const std::string &path, const std::string &allowed) {
     refuse(path, "does not go with " + section_of_stage(1) + ". Allowed: " + allowed + ".");
   };
-  if (app_ != AppKind::compress && app_ != AppKind::study)
+  if (!program_.presses_specimens())
     refuse(first_entry(parameters_, section_of_stage(1)), "is for platen-compress. Allowed: no stages.");
   if (loading.test != LoadingTest::compression) refuse_stages("Loading/Test", "compression");
   if (loading.servo) refuse_stages("Platens/Top/Control", "motion");
@@ -49,7 +49,7 @@ void SceneCheck::stages() const {
   if (!loading.unload_at.empty()) refuse_stages("Loading/Unload at", "none");
   if (loading.cell->path != 0) refuse_stages("Loading/Pressure path", "0");
   try {
-    coupling::require_stages(loading.stages, scope_of(scene_, {scene_, parameters_, app_}));
+    coupling::require_stages(loading.stages, scope_of(scene_, situation()));
   } catch (const coupling::BadSetup &e) {
     const std::string entry = parameters_.entry_of(e.member()), section = entry.substr(0, entry.rfind('/'));
     const std::string reason = parameters_.with_entries(e.reason());

@@ -32,23 +32,22 @@ void check_name(const std::string &name, const char *what) {
            "... holds a control character or a line end. Allowed: a name without.");
 }
 
-std::vector<std::string> option_names(const AppDescription &app) {
+std::vector<std::string> option_names(const Program &program) {
   std::vector<std::string> names{
       "--output",           "--set",  "--threads", "--resume",  "--overwrite", "--dry-run",
       "--print-parameters", "--json", "--quiet",   "--verbose", "--help",      "--version"};
-  if (app.shares_packings) names.emplace_back("--packings");
-  if (app.plans_runs) names.insert(names.end(), {"--plan", "--run", "--collect"});
+  if (program.shares_packings) names.emplace_back("--packings");
+  if (program.plans_runs) names.insert(names.end(), {"--plan", "--run", "--collect"});
   return names;
 }
 
 // Text of what was not understood, with the nearest option.
-[[noreturn]] void refuse_extra(const std::string &argument, const CommandLine &line,
-                               const AppDescription &app) {
+[[noreturn]] void refuse_extra(const std::string &argument, const CommandLine &line, const Program &program) {
   if (argument.size() < 2 || argument[0] != '-')
     fail("\"" + argument + "\" is one argument too many" +
          (line.scene.empty() ? "" : " after " + line.scene) +
          ". Texts with blanks need quotes: --set \"Section/Key = value\".");
-  const std::string nearest = nearest_word(argument.substr(0, argument.find('=')), option_names(app));
+  const std::string nearest = nearest_word(argument.substr(0, argument.find('=')), option_names(program));
   fail(argument + " is not an option." +
        (nearest.empty() ? " See --help." : " Did you mean \"" + nearest + "\"?"));
 }
@@ -87,16 +86,16 @@ void check_planned(const CommandLine &line) {
 }
 
 // What stands after --print-parameters, where it is neither an option nor a scene: a section or an entry.
-bool is_part(const std::string &after, const AppDescription &app) {
+bool is_part(const std::string &after, const Program &program) {
   const std::filesystem::path path(after);
   std::error_code ignored;
   return !after.empty() && after[0] != '-' && path.extension() != ".prm" && path.extension() != ".json" &&
-         std::find(app.kinds.begin(), app.kinds.end(), after) == app.kinds.end() &&
+         std::find(program.kinds.begin(), program.kinds.end(), after) == program.kinds.end() &&
          !std::filesystem::is_regular_file(path, ignored);
 }
 
 // The arguments without that part, which goes to `part`.
-std::vector<const char *> without_part(int argc, const char *const *argv, const AppDescription &app,
+std::vector<const char *> without_part(int argc, const char *const *argv, const Program &program,
                                        std::string &part) {
   const std::string option = "--print-parameters";
   std::vector<const char *> left;
@@ -109,12 +108,12 @@ std::vector<const char *> without_part(int argc, const char *const *argv, const 
       continue;
     }
     left.push_back(argv[k]);
-    if (argument == option && k + 1 < argc && is_part(argv[k + 1], app)) part = argv[++k];
+    if (argument == option && k + 1 < argc && is_part(argv[k + 1], program)) part = argv[++k];
   }
   return left;
 }
 
-void check(const CommandLine &line, const AppDescription &app) {
+void check(const CommandLine &line, const Program &program) {
   if (line.resume && line.overwrite)
     fail("--resume and --overwrite exclude each other. Allowed: one of them.");
   if (line.quiet && line.verbose) fail("--quiet and --verbose exclude each other. Allowed: one of them.");
@@ -124,28 +123,29 @@ void check(const CommandLine &line, const AppDescription &app) {
   check_name(line.output, "--output");
   check_name(line.packings, "--packings");
   if (line.output_given && line.output.empty()) fail("--output is empty. Allowed: the name of a folder.");
-  const std::string kind = app.kinds.empty() ? "" : "KIND ";
-  if (!line.kind.empty() && std::find(app.kinds.begin(), app.kinds.end(), line.kind) == app.kinds.end()) {
-    const std::string nearest = nearest_word(line.kind, app.kinds);
+  const std::string kind = program.kinds.empty() ? "" : "KIND ";
+  if (!line.kind.empty() &&
+      std::find(program.kinds.begin(), program.kinds.end(), line.kind) == program.kinds.end()) {
+    const std::string nearest = nearest_word(line.kind, program.kinds);
     fail("KIND = " + line.kind + " is not known." +
-         (nearest.empty() ? "" : " Did you mean \"" + nearest + "\"?") + " Allowed: " + joined(app.kinds) +
-         ".");
+         (nearest.empty() ? "" : " Did you mean \"" + nearest + "\"?") +
+         " Allowed: " + joined(program.kinds) + ".");
   }
   if (line.scene.empty() && !line.print_parameters)
-    fail("no scene is given. Allowed: " + app.name + " " + kind + "SCENE.prm [options], see --help.");
+    fail("no scene is given. Allowed: " + program.name + " " + kind + "SCENE.prm [options], see --help.");
 }
 
 } // namespace
 
-CommandLine read_command_line(int argc, const char *const *argv, const AppDescription &app) {
+CommandLine read_command_line(int argc, const char *const *argv, const Program &program) {
   CommandLine line;
   std::string threads;
-  CLI::App parser(app.purpose, app.name);
+  CLI::App parser(program.purpose, program.name);
   parser.set_help_flag("-h,--help", "Print this and exit");
   parser.allow_extras(); // refused below, with the nearest option
   bool version = false;
-  if (!app.kinds.empty())
-    parser.add_option("KIND", line.kind, "What to sweep: " + joined(app.kinds))->type_name("");
+  if (!program.kinds.empty())
+    parser.add_option("KIND", line.kind, "What to sweep: " + joined(program.kinds))->type_name("");
   parser.add_option("SCENE", line.scene, "Scene file, .prm or .json")->type_name("");
   CLI::Option *output =
       parser.add_option("-o,--output", line.output, "Output folder [results/<name of the scene>]")
@@ -162,7 +162,7 @@ CommandLine read_command_line(int argc, const char *const *argv, const AppDescri
   parser.add_flag("--json", line.json, "With --print-parameters or --version: as JSON");
   parser.add_flag("--overwrite", line.overwrite, "Replace an earlier run in the output folder");
   CLI::Option *packings = nullptr;
-  if (app.shares_packings)
+  if (program.shares_packings)
     packings =
         parser
             .add_option("--packings", line.packings,
@@ -170,11 +170,11 @@ CommandLine read_command_line(int argc, const char *const *argv, const AppDescri
                         "packs and leaves it there; the results are the same bytes")
             ->type_name("DIR");
   bool no_cache = false;
-  if (app.caches_packings)
+  if (program.caches_packings)
     parser.add_flag("--no-cache", no_cache, "Pack anew and keep it nowhere; as Specimen/Cache = none");
   std::string run;
   CLI::Option *planned = nullptr;
-  if (app.plans_runs) {
+  if (program.plans_runs) {
     parser.add_flag("--plan", line.plan, "Write plan.csv, a run a line, and run nothing");
     planned =
         parser
@@ -188,7 +188,7 @@ CommandLine read_command_line(int argc, const char *const *argv, const AppDescri
   parser.add_flag("--verbose", line.verbose, "Print more");
   parser.add_flag("--version", version, "Print version and libraries and exit");
   try {
-    const std::vector<const char *> arguments = without_part(argc, argv, app, line.part);
+    const std::vector<const char *> arguments = without_part(argc, argv, program, line.part);
     parser.parse(static_cast<int>(arguments.size()), arguments.data());
   } catch (const CLI::CallForHelp &) {
     throw PrintAndExit{parser.help()};
@@ -197,7 +197,7 @@ CommandLine read_command_line(int argc, const char *const *argv, const AppDescri
   }
   if (version) throw PrintAndExit{(line.json ? version_json() : version_text()) + "\n"};
   const std::vector<std::string> extras = parser.remaining();
-  if (!extras.empty()) refuse_extra(extras.front(), line, app);
+  if (!extras.empty()) refuse_extra(extras.front(), line, program);
   line.output_given = output->count() > 0;
   if (packings != nullptr && packings->count() > 0 && line.packings.empty())
     fail("--packings is empty. Allowed: the name of a folder.");
@@ -206,7 +206,7 @@ CommandLine read_command_line(int argc, const char *const *argv, const AppDescri
   if (planned != nullptr && planned->count() > 0) line.run = read_run(run);
   for (int k = 0; k < argc; ++k)
     line.text += (k == 0 ? "" : " ") + shell_word(argv[k]);
-  check(line, app);
+  check(line, program);
   if (!line.output_given && !line.scene.empty())
     line.output = (std::filesystem::path("results") / std::filesystem::path(line.scene).stem()).string();
   return line;

@@ -23,31 +23,8 @@ std::string alternatives(const std::vector<std::string> &words) {
 
 } // namespace
 
-bool Situation::loads() const {
-  return app == AppKind::compress || app == AppKind::brazilian || app == AppKind::calibrate ||
-         app == AppKind::study;
-}
-
 bool Situation::rate_by_transits() const {
-  return (app == AppKind::compress || app == AppKind::study) && given(scene.loading.wave_transits) &&
-         !given(scene.loading.rate);
-}
-
-bool Situation::varied(const std::string &path) const {
-  if (app != AppKind::study) return false;
-  const Study &study = scene.study;
-  const auto set = [](const Entry &entry) {
-    return entry.path.rfind("Study/Target/", 0) == 0 && entry.changed();
-  };
-  const bool targets = std::any_of(parameters.entries().begin(), parameters.entries().end(), set);
-  if (path == "Loading/Axial rate")
-    return !study.axial_rates.empty() || !study.wave_transits.empty() || !study.qualities.empty() || targets;
-  if (path == "Loading/Confining pressure") return !study.pressures.empty();
-  if (path == "Specimen/Sphere radius") return !study.sphere_radii.empty() && study.domains.empty();
-  // Elastic platens as thick as a tenth of the height have to know it.
-  if (path == "Specimen/Height")
-    return !study.slendernesses.empty() && (!scene.platens.deformable || scene.platens.thickness > 0);
-  return false;
+  return program.presses_specimens() && given(scene.loading.wave_transits) && !given(scene.loading.rate);
 }
 
 bool has_word(const Parameters &parameters, const std::string &path, const std::vector<std::string> &words) {

@@ -8,24 +8,29 @@
 #include <vector>
 
 #include "apps/scene/parameters.h"
+#include "apps/scene/program.h"
 
 namespace platen::apps {
 
 struct Scene;
-enum class AppKind;
 
 // What is checked when a scene has been read.
 struct Situation {
   const Scene &scene;
   const Parameters &parameters;
-  AppKind app;
+  const Program &program;
 
   operator const Scene &() const { return scene; }
-  bool loads() const;            // the app presses a specimen
+  bool loads() const { return program.presses != Presses::nothing; }
   bool rate_by_transits() const; // Loading/Wave crossings sets the rate
-  // A study gives the entry to each of its cases, from a list of its own; whether a kind of study reads that
-  // list is found when its cases are read.
-  bool varied(const std::string &path) const;
+  // The program gives the entry to each of its runs, from a list of its own.
+  bool given_by_program(const std::string &path) const {
+    return program.gives != nullptr && program.gives(scene, parameters, path);
+  }
+  // A test of the program needs this part, though the scene does not ask for it.
+  bool used_by_program(const std::string &part) const {
+    return program.uses != nullptr && program.uses(scene, part);
+  }
 };
 
 inline bool given(double value) {

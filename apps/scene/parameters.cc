@@ -193,8 +193,12 @@ bool Parameters::is_section(const std::string &path) const {
   return std::find(sections_.begin(), sections_.end(), path) != sections_.end();
 }
 
+bool Parameters::is_foreign(const std::string &path) const {
+  return std::find(foreign_.begin(), foreign_.end(), path.substr(0, path.find('/'))) != foreign_.end();
+}
+
 void Parameters::enter(const std::string &path, const Origin &origin) const {
-  if (is_section(path)) return;
+  if (is_section(path) || is_foreign(path)) return;
   std::string message =
       origin.text() + ": error: " + shown(path) + " is not a section" + look_alike_in(path) + ".";
   if (path.find('/') != std::string::npos && is_section(last_name(path)))
@@ -222,7 +226,9 @@ std::string Parameters::nearest_section(const std::string &path) const {
   std::vector<std::string> siblings;
   for (const std::string &section : sections_)
     if (section_of(section) == section_of(path)) siblings.push_back(last_name(section));
-  const std::string sibling = nearest_word(last_name(path), siblings), outer = section_of(path);
+  const std::string outer = section_of(path);
+  if (outer.empty()) siblings.insert(siblings.end(), foreign_.begin(), foreign_.end());
+  const std::string sibling = nearest_word(last_name(path), siblings);
   if (!sibling.empty()) return (outer.empty() ? "" : outer + "/") + sibling;
   for (const std::string &section : sections_) // right name, wrong place
     if (a_slip_apart(last_name(section), last_name(path))) return section;
@@ -278,6 +284,7 @@ void Parameters::refuse_unknown(const std::string &path, const Origin &origin) c
 }
 
 void Parameters::set(const std::string &path, const std::string &text, const Origin &origin) {
+  if (is_foreign(path)) return;
   if (find(path) == nullptr) refuse_unknown(path, origin);
   Entry &entry = declared(path);
   if (entry.origin.line > 0 && origin.depth >= entry.origin.depth)

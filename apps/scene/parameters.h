@@ -62,6 +62,8 @@ public:
   const Entry &at(const std::string &path) const;   // throws std::out_of_range for an unknown path
 
   bool is_section(const std::string &path) const;
+  // Keys of this section, of what is in it too, belong to another program: they are neither read nor refused.
+  void pass_over(const std::string &section) { foreign_.push_back(section); }
   // Throws InputError unless path is a section.
   void enter(const std::string &path, const Origin &origin) const;
   // Sets an entry. Throws InputError for an unknown path, a bad value, or a key that was set before at the
@@ -129,11 +131,13 @@ private:
   std::string nearest_section(const std::string &path) const; // "" where none is near
   std::string contents_of(const std::string &section) const;
   bool names_a_fault(const std::string &message) const;
+  bool is_foreign(const std::string &path) const;
   std::size_t position(const std::string &path) const; // entries_.size() for an unknown path
 
   std::vector<Entry> entries_;
   std::vector<std::string> sections_;
   std::vector<std::string> sources_;
+  std::vector<std::string> foreign_; // sections
   Faults faults_;
   bool collects_ = false, whole_ = true;
 };

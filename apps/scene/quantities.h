@@ -1,6 +1,8 @@
 // Values of a scene that a number alone does not state.
 #pragma once
 
+#include <vector>
+
 #include <stdexcept>
 #include <string>
 
@@ -25,6 +27,12 @@ const std::string &word_of(const Words<Enum> &words, Enum value) {
   for (const auto &[word, meant] : words)
     if (meant == value) return word;
   throw std::logic_error("a value without a word");
+}
+
+// The list, or the one value that the scene has.
+template <class Value>
+std::vector<Value> or_own(const std::vector<Value> &list, const Value &own) {
+  return list.empty() ? std::vector<Value>{own} : list;
 }
 
 } // namespace platen::apps

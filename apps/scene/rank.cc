@@ -33,7 +33,8 @@ Rank &this_rank() {
 }
 
 bool launched_with_others() {
-  return launched().of > 1;
+  const bool of_srun = std::getenv("PMIX_RANK") != nullptr && number_of("SLURM_STEP_NUM_TASKS", 1) > 1;
+  return launched().of > 1 || of_srun;
 }
 
 void require_one_process(const std::string &app) {

@@ -26,7 +26,7 @@ public:
   RankThatWrites &operator=(const RankThatWrites &) = delete;
 };
 
-// Whether a launcher has started several processes of this program.
+// Whether a launcher has started several processes of this program, which make one run if it runs on ranks.
 bool launched_with_others();
 
 // Throws InputError where mpirun has started several processes of an app that runs in one. The first of them

@@ -43,8 +43,8 @@ int tell(const std::string &message, int status) {
 }
 
 // The command line without its number of threads, which may be another on each machine.
-std::string words_but_threads(int argc, const char *const *argv, const AppDescription &app) {
-  std::string words = app.name;
+std::string words_but_threads(int argc, const char *const *argv, const Program &program) {
+  std::string words = program.name;
   for (int k = 1; k < argc; ++k) {
     const std::string word = argv[k];
     if (word == "-t" || word == "--threads")
@@ -55,49 +55,25 @@ std::string words_but_threads(int argc, const char *const *argv, const AppDescri
   return words;
 }
 
-void require_ranks(int argc, const char *const *argv, const AppDescription &app) {
-  if (app.require_same == nullptr) {
-    try {
-      require_one_process(app.name);
-    } catch (const InputError &error) {
-      throw InputError(std::string("error: ") + error.what());
-    }
-  } else
-    app.require_same(words_but_threads(argc, argv, app));
+void require_ranks(int argc, const char *const *argv, const Program &program, RequireSame require_same) {
+  if (require_same != nullptr) return require_same(words_but_threads(argc, argv, program));
+  try {
+    require_one_process(program.name);
+  } catch (const InputError &error) {
+    throw InputError(std::string("error: ") + error.what());
+  }
 }
 
 extern "C" void end_at_once(int number) {
   ::_exit(128 + number);
 }
 
-// Until an app that writes catches signals itself: one that asks to stop ends the program at once, with the
-// exit status of a run that was stopped, for nothing is written; one that asks for a checkpoint waits.
-extern "C" void obey_early_signals() {
-  for (const int number : {SIGINT, SIGTERM}) {
-    struct sigaction action {};
-    if (sigaction(number, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) continue;
-    action.sa_handler = end_at_once;
-    sigaction(number, &action, nullptr);
-  }
-  sigset_t waits, obeyed; // the latter were held back while this program was loaded (apps/front.cc)
-  sigemptyset(&waits), sigemptyset(&obeyed);
-  sigaddset(&waits, SIGUSR1);
-  sigaddset(&obeyed, SIGINT), sigaddset(&obeyed, SIGTERM);
-  sigprocmask(SIG_BLOCK, &waits, nullptr);
-  sigprocmask(SIG_UNBLOCK, &obeyed, nullptr);
-}
-
-// Before the libraries initialise, which takes most of the first fifth of a second. Sanitizers have to come
-// first.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-__attribute__((section(".preinit_array"), used)) void (*const before_libraries)() = obey_early_signals;
-#endif
-
-int run(const CommandLine &line, const AppDescription &app, const AppBody &body) {
-  const Scene scene = line.scene.empty() ? default_scene() : read_scene(line.scene, line.overrides, app.kind);
+int run(const CommandLine &line, const Program &program, const AppBody &body) {
+  const Scene scene =
+      line.scene.empty() ? default_scene(program) : read_scene(line.scene, line.overrides, program);
   if (line.print_parameters) {
     if (this_rank().is_silent()) return status_done;
-    print_parameters(scene, app, line.part, line.json, std::cout);
+    print_parameters(scene, line.part, line.json, std::cout);
     return status_done;
   }
   try {
@@ -134,30 +110,31 @@ int with_status(const std::function<int()> &act) {
 
 } // namespace
 
-int run_app(int argc, char **argv, const AppDescription &app, const AppBody &body) {
-  obey_early_signals();
-  return with_status([&] {
-    require_ranks(argc, argv, app);
-    return run(read_command_line(argc, argv, app), app, [&](const CommandLine &line, const Scene &scene) {
-      if (!line.quiet && !this_rank().is_silent())
-        for (const std::string &note : scene.notes)
-          std::cerr << note << '\n';
-      return body(line, scene);
-    });
-  });
+void obey_early_signals() {
+  for (const int number : {SIGINT, SIGTERM}) {
+    struct sigaction action {};
+    if (sigaction(number, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) continue;
+    action.sa_handler = end_at_once;
+    sigaction(number, &action, nullptr);
+  }
+  sigset_t waits;
+  sigemptyset(&waits);
+  sigaddset(&waits, SIGUSR1);
+  sigprocmask(SIG_BLOCK, &waits, nullptr);
 }
 
-std::optional<int> answer_at_once(int argc, char **argv, const AppDescription &app) {
+int run_app(int argc, char **argv, const Program &program, const AppBody &body, RequireSame require_same) {
   obey_early_signals();
-  if (launched_with_others()) return std::nullopt;
-  bool has_work = false;
-  const int status = with_status([&] {
-    return run(read_command_line(argc, argv, app), app, [&](const CommandLine &, const Scene &) {
-      has_work = true;
-      return status_done;
-    });
+  return with_status([&] {
+    require_ranks(argc, argv, program, require_same);
+    return run(read_command_line(argc, argv, program), program,
+               [&](const CommandLine &line, const Scene &scene) {
+                 if (!line.quiet && !this_rank().is_silent())
+                   for (const std::string &note : scene.notes)
+                     std::cerr << note << '\n';
+                 return body(line, scene);
+               });
   });
-  return has_work ? std::nullopt : std::optional<int>(status);
 }
 
 } // namespace platen::apps

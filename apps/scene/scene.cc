@@ -11,10 +11,8 @@
 #include "apps/scene/command_line.h"
 #include "apps/scene/declare.h"
 #include "apps/scene/layers.h"
-#include "apps/scene/readers.h"
 #include "apps/scene/regular_file.h"
 #include "apps/scene/scene_files.h"
-#include "apps/scene/scene_targets.h"
 #include "apps/scene/specimen_file.h"
 #include "apps/scene/surfaces.h"
 
@@ -49,16 +47,17 @@ void supply_specimen(SpecimenSection &to, const Parameters &parameters) {
 }
 
 // Without a pressure there is no cell, so that a series over pressures may begin with none.
-void leave_out_cell(Scene &scene, const Parameters &parameters) {
+void leave_out_cell(Scene &scene, const Parameters &parameters, const Program &program) {
   Loading &loading = scene.loading;
   const bool none =
       loading.cell->pressure == 0 && !parameters.at("Loading/Confining pressure").origin.file.empty();
-  if (none && !loading.staged() && !loading.hydrostatic() && scene.study.pressures.empty())
+  const bool varied = Situation{scene, parameters, program}.given_by_program("Loading/Confining pressure");
+  if (none && !loading.staged() && !loading.hydrostatic() && !varied)
     loading.confinement = ConfinementKind::none;
 }
 
 // Fills what one entry takes from another, so that the apps need not know the rules.
-void inherit(Scene &scene, Parameters &parameters) {
+void inherit(Scene &scene, Parameters &parameters, const Program &program) {
   supply_quality(parameters, scene.general.quality);
   supply_surfaces(parameters, scene.platens);
   Platens &platens = scene.platens;
@@ -81,19 +80,11 @@ void inherit(Scene &scene, Parameters &parameters) {
   if (platens.thickness == 0 && !std::isnan(scene.specimen.height))
     platens.thickness = 0.1 * scene.specimen.height;
   scene.loading.stages = stages_of(scene.loading.stage_sections);
-  leave_out_cell(scene, parameters);
-  scene.calibrate.targets = targets_of(parameters, scene.calibrate);
-  PairTest &pair = scene.pair_test;
-  double &modulus = scene.model.bond_layout.modulus;
-  const std::vector<double> &moduli = scene.calibrate.moduli;
-  if (scene.calibrate.mode == CalibrateMode::abacus && std::isnan(modulus) && !moduli.empty())
-    modulus = moduli.front();
-  if (pair.moduli.empty() && !std::isnan(modulus)) pair.moduli = {modulus};
-  if (pair.stiffness_ratios.empty()) pair.stiffness_ratios = {scene.bond.number("stiffness_ratio")};
+  leave_out_cell(scene, parameters, program);
   scene.phases.file = resolved_path(parameters.at("Phases/File"));
-  scene.study.target.over_scene = resolved_path(parameters.at("Study/Target/Over scene"));
   for (Expectation &expectation : scene.expect)
     expectation.origin = parameters.at("Expect/" + expectation.key).origin.text();
+  if (program.complete != nullptr) program.complete(parameters, scene);
 }
 
 // Of sections alike what is set; documented the first one whole.
@@ -143,33 +134,44 @@ void keep(Scene &scene, Parameters &parameters) {
 }
 
 // What holds whatever a word was meant to be that could not be read: it decides what else is needed.
-Faults found_in(Scene &scene, Parameters &parameters, AppKind app) {
-  Faults found = check_scene(scene, parameters, app);
+Faults found_in(Scene &scene, Parameters &parameters, const Program &program) {
+  Faults found = check_scene(scene, parameters, program);
   for (const EntryError &fault : parameters.faults().all()) {
     const Entry *entry = parameters.find(fault.entry);
     if (entry == nullptr || found.empty()) continue;
     for (const std::string &word : std::vector<std::string>(entry->words)) {
       parameters.pretend(fault.entry, word);
-      found.keep_common(check_scene(scene, parameters, app));
+      found.keep_common(check_scene(scene, parameters, program));
     }
     if (!entry->words.empty()) parameters.pretend(fault.entry, "");
   }
   return found;
 }
 
-// A null `app` leaves contradictions be.
-Scene read(const std::string &path, const std::vector<std::string> &overrides, const AppKind *app) {
+void declare(Scene &scene, Parameters &parameters, const Program &program) {
+  scene.program = &program;
+  declare_scene(parameters, scene);
+  if (program.declare != nullptr) program.declare(parameters, scene);
+  for (const std::string &section : program.foreign)
+    parameters.pass_over(section);
+}
+
+enum class Contradictions { refused, left };
+
+Scene read(const std::string &path, const std::vector<std::string> &overrides, const Program &program,
+           Contradictions contradictions) {
   Scene scene;
   Parameters parameters;
-  declare_scene(parameters, scene);
+  declare(scene, parameters, program);
   scene.path = path;
   scene.name = std::filesystem::path(path).stem().string();
   parameters.collect();
   if (!parameters.attempt([&] { read_scene_file(path, parameters); })) parameters.lose_part();
   for (std::size_t k = 0; k < overrides.size(); ++k)
     parameters.attempt([&] { parameters.override_entry(overrides[k], static_cast<int>(k) + 1); });
-  if (parameters.whole()) inherit(scene, parameters);
-  if (parameters.whole() && app != nullptr) parameters.add_independent(found_in(scene, parameters, *app));
+  if (parameters.whole()) inherit(scene, parameters, program);
+  if (parameters.whole() && contradictions == Contradictions::refused)
+    parameters.add_independent(found_in(scene, parameters, program));
   parameters.throw_faults();
   keep(scene, parameters);
   return scene;
@@ -177,22 +179,22 @@ Scene read(const std::string &path, const std::vector<std::string> &overrides, c
 
 } // namespace
 
-Scene default_scene() {
+Scene default_scene(const Program &program) {
   Scene scene;
   Parameters parameters;
-  declare_scene(parameters, scene);
-  inherit(scene, parameters);
+  declare(scene, parameters, program);
+  inherit(scene, parameters, program);
   keep(scene, parameters);
   return scene;
 }
 
-Scene read_scene(const std::string &path, const std::vector<std::string> &overrides, AppKind app) {
-  return read(path, overrides, &app);
+Scene read_scene(const std::string &path, const std::vector<std::string> &overrides, const Program &program) {
+  return read(path, overrides, program, Contradictions::refused);
 }
 
-std::string completed_scene_text(const std::string &path, const std::string &folder) {
+std::string completed_scene_text(const std::string &path, const std::string &folder, const Program &program) {
   try {
-    return scene_text(read(path, {}, nullptr), folder);
+    return scene_text(read(path, {}, program, Contradictions::left), folder);
   } catch (const InputError &) {
     std::ostringstream text;
     text << open_file(path).rdbuf();
@@ -226,16 +228,15 @@ std::string scene_text(const Scene &scene, const std::filesystem::path &folder) 
   return text.str();
 }
 
-void print_parameters(const Scene &scene, const AppDescription &app, const std::string &part, bool as_json,
-                      std::ostream &out) {
+void print_parameters(const Scene &scene, const std::string &part, bool as_json, std::ostream &out) {
   const std::vector<Entry> entries =
       part.empty() ? written(*scene.parameters, true) : part_of(*scene.parameters, part);
   std::vector<Entry> read;
   std::copy_if(entries.begin(), entries.end(), std::back_inserter(read),
-               [&](const Entry &entry) { return reads(app.kind, entry.path); });
+               [&](const Entry &entry) { return scene.program->reads_entry(entry.path); });
   if (read.empty())
-    throw InputError("command line: error: --print-parameters: " + app.name + " reads nothing of " + part +
-                     ".");
+    throw InputError("command line: error: --print-parameters: " + scene.program->name +
+                     " reads nothing of " + part + ".");
   if (as_json)
     write_json(read, out);
   else

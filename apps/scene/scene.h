@@ -2,6 +2,7 @@
 // structs, one for each section of the file. NaN means "not given" where a member says so.
 #pragma once
 
+#include <any>
 #include <filesystem>
 #include <iosfwd>
 #include <limits>
@@ -11,7 +12,6 @@
 
 #include "apps/scene/quality.h"
 #include "apps/scene/quantities.h"
-#include "apps/scene/scene_apps.h"
 #include "apps/scene/scene_bond.h"
 #include "apps/scene/scene_loading.h"
 #include "apps/scene/scene_specimen.h"
@@ -20,11 +20,7 @@
 namespace platen::apps {
 
 class Parameters;
-struct AppDescription;
-
-// Which app reads the scene: it decides which entries must be given (a compression test needs an axial rate,
-// a test of one bond needs no specimen).
-enum class AppKind { pack, bonds, bar, compress, brazilian, calibrate, study };
+struct Program;
 
 struct General { // section Scene
   std::string title;
@@ -74,13 +70,23 @@ struct Scene {
   coupling::TimeStepSettings time_step;
   Output output;
   Checkpoint checkpoint;
-  std::vector<Expectation> expect; // only those that the scene gives
-  PairTest pair_test;
-  Calibrate calibrate;
-  BarTest bar_test;
-  Study study;
-  std::vector<std::string> notes; // entries that were set and have no effect here, one line each
+  std::vector<Expectation> expect;  // only those that the scene gives
+  std::any section;                 // of the program: what its own section says
+  const Program *program = nullptr; // that reads the scene
+  std::vector<std::string> notes;   // entries that were set and have no effect here, one line each
   std::shared_ptr<const Parameters> parameters; // the same entries as text
+
+  // The settings of the program's own section, which the second makes if there are none. Throws
+  // std::bad_any_cast for those of another program.
+  template <class Section>
+  const Section &own() const {
+    return std::any_cast<const Section &>(section);
+  }
+  template <class Section>
+  Section &own() {
+    if (!section.has_value()) section.emplace<Section>();
+    return std::any_cast<Section &>(section);
+  }
 
   // Whether grains press on platens by Hertz' law.
   bool hertz_on_platens() const {
@@ -91,11 +97,12 @@ struct Scene {
 };
 
 // Every entry at its default, nothing required. Never throws InputError.
-Scene default_scene();
+Scene default_scene(const Program &program);
 
 // Reads `path` (.prm or .json), applies overrides ("Section/Key = value", in order), converts and checks all.
-// Throws InputError with all that is wrong: file, line, key, value, what is allowed of each.
-Scene read_scene(const std::string &path, const std::vector<std::string> &overrides, AppKind app);
+// Keys of sections that other programs own are passed over. Throws InputError with all that is wrong: file,
+// line, key, value, what is allowed of each. `program` has to outlive the scene.
+Scene read_scene(const std::string &path, const std::vector<std::string> &overrides, const Program &program);
 
 // Throws InputError on behalf of an entry, with the place where it was set: "case.prm:14: error: ...".
 [[noreturn]] void refuse(const Scene &scene, const std::string &entry, const std::string &reason);
@@ -107,7 +114,6 @@ std::string scene_text(const Scene &scene, const std::filesystem::path &folder);
 // Every parameter that a program reads with value, default, unit, range and meaning: as .prm, or as JSON
 // (readable as a scene too). `part` is a section or an entry that is printed alone, "" all. Throws InputError
 // for one that is not known, or that the program does not read.
-void print_parameters(const Scene &scene, const AppDescription &app, const std::string &part, bool as_json,
-                      std::ostream &out);
+void print_parameters(const Scene &scene, const std::string &part, bool as_json, std::ostream &out);
 
 } // namespace platen::apps

@@ -10,8 +10,8 @@ namespace platen::apps {
 
 class SceneCheck {
 public:
-  SceneCheck(Scene &scene, const Parameters &parameters, AppKind app, Faults &found)
-      : scene_(scene), parameters_(parameters), app_(app), found_(found) {}
+  SceneCheck(Scene &scene, const Parameters &parameters, const Program &program, Faults &found)
+      : scene_(scene), parameters_(parameters), program_(program), found_(found) {}
 
   void specimen() const;
   void effects() const;
@@ -31,27 +31,27 @@ public:
   void cycles() const;
   void stages() const;
   void cell() const;
-  void pair_test() const;
-  void led_pair() const;
-  void calibrate() const;
-  void triaxial_strength() const;
-  void target(const Target &target) const;
-  void free_parameters() const;
-  void calibrate_bounds() const;
-  void bar_test() const;
-  void study() const;
   void scale() const;
   void notes();
 
-private:
-  bool loads() const { return Situation{scene_, parameters_, app_}.loads(); }
+  // For what programs check of their own sections.
+  const Scene &scene() const { return scene_; }
+  const Parameters &parameters() const { return parameters_; }
+  bool loads() const { return situation().loads(); }
   // Goes on: what comes after it has to hold without it.
   void refuse(const std::string &path, const std::string &reason) const;
   void need(const std::string &path, double value, const std::string &why) const {
-    if (!given(value) && !Situation{scene_, parameters_, app_}.varied(path))
+    if (!given(value) && !situation().given_by_program(path))
       refuse(path, "is not set: " + why + " Allowed: " + limits(parameters_.at(path)) + ".");
   }
   void readable(const std::string &path, const std::string &file, const std::string &why) const;
+  // Says that an entry which the scene sets has no effect.
+  void note(const std::string &path, const std::string &why) const;
+  std::string set_to(const std::string &path) const; // "Specimen/Height = 40 mm"
+
+private:
+  Situation situation() const { return {scene_, parameters_, program_}; }
+  void refuse_unless_whole(const std::string &path, const std::string &allowed) const;
   void cross_section() const;
   void spheres_fit() const;
   void surfaces() const;
@@ -63,7 +63,6 @@ private:
   void seat() const;
   void friction(coupling::Side of) const;
   void weakening(coupling::Side of) const;
-  std::string set_to(const std::string &path) const;
   void proportions() const;
   double wave_speed() const;
   void waves() const;
@@ -73,17 +72,13 @@ private:
   void step_count() const;
   void stresses() const;
   void stiffnesses() const;
-  void pair_scale() const;
-  void note(const std::string &path, const std::string &why);
   void notes_of_declarations();
-  void bar_notes();
-  void pair_notes();
   void size_note();
   void radius_note();
 
   Scene &scene_;
   const Parameters &parameters_;
-  AppKind app_;
+  const Program &program_;
   Faults &found_;
 };
 

@@ -10,6 +10,8 @@
 
 namespace platen::apps {
 
+struct Program;
+
 // Reads a file by its ending, .prm or .json. Line ends of any system and a byte order mark are fine. Throws
 // InputError. `include` in a .prm takes a path relative to the folder of the file that it stands in, or else
 // of the scenes that came with the programs.
@@ -28,6 +30,6 @@ void write_json(const std::vector<Entry> &entries, std::ostream &out);
 // The text of a scene that scene_text gave for `folder`, as this program writes it: entries that it lacks,
 // because the program that wrote it had none, stand there with their defaults. As it is where it cannot be
 // read.
-std::string completed_scene_text(const std::string &path, const std::string &folder);
+std::string completed_scene_text(const std::string &path, const std::string &folder, const Program &program);
 
 } // namespace platen::apps

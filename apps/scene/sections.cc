@@ -86,10 +86,6 @@ void declare_scene(Parameters &parameters, Scene &scene) {
   declare_integration(parameters, scene.time_step, scene.model);
   declare_output(parameters, scene.output, scene.checkpoint);
   declare_expect(parameters, scene.expect);
-  declare_pair_test(parameters, scene.pair_test);
-  declare_calibrate(parameters, scene.calibrate);
-  declare_bar_test(parameters, scene.bar_test);
-  declare_study(parameters, scene.study);
 }
 
 } // namespace platen::apps

@@ -20,9 +20,5 @@ void declare_sleeve(Parameters &parameters, coupling::CellSettings &cell);
 void declare_loading(Parameters &parameters, Loading &loading);
 void declare_stages(Parameters &parameters, std::array<StageSection, most_stages> &stages);
 void declare_expect(Parameters &parameters, std::vector<Expectation> &expect);
-void declare_pair_test(Parameters &parameters, PairTest &pair);
-void declare_calibrate(Parameters &parameters, Calibrate &c);
-void declare_bar_test(Parameters &parameters, BarTest &bar);
-void declare_study(Parameters &parameters, Study &study);
 
 } // namespace platen::apps

@@ -6,13 +6,10 @@
 namespace platen::apps {
 namespace {
 
-// Bonds that never break are meant, not forgotten. A calibration asks for them where its search begins with
-// them; what it solves at rest breaks nothing.
-std::string strength_is_missing(const Situation &s) {
-  if (!s.scene.bond.bonded() || s.app == AppKind::pack) return "";
-  if (s.app == AppKind::calibrate)
-    return s.scene.calibrate.searches_strengths() ? "the search for strengths begins with it." : "";
-  return std::string("Effects/Bond is ") + s.scene.bond.word() + ".";
+// Bonds that never break are meant, not forgotten.
+std::string needed_by_bonds(const Situation &s, const char *path) {
+  const bool needed = s.scene.bond.bonded() && s.program.bonds && !s.given_by_program(path);
+  return needed ? std::string("Effects/Bond is ") + s.scene.bond.word() + "." : "";
 }
 
 void declare_calibrated(Section &section, CalibratedFor &calibrated) {
@@ -40,20 +37,15 @@ void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model)
   Section section(parameters, "Bond");
   Members layout(section, model.bond_layout);
   LawMembers law(section, bond.laws);
-  layout("modulus").needed_if([](const Situation &s) -> std::string {
-    const Calibrate &c = s.scene.calibrate;
-    const bool abacus = s.app == AppKind::calibrate && c.mode == CalibrateMode::abacus;
-    const bool lists =
-        (s.app == AppKind::bonds && !s.scene.pair_test.moduli.empty()) || (abacus && !c.moduli.empty());
-    const bool bonds = s.scene.bond.bonded() && s.app != AppKind::pack && !lists;
-    return bonds ? std::string("Effects/Bond is ") + s.scene.bond.word() + "." : "";
-  });
+  layout("modulus").needed_if([](const Situation &s) { return needed_by_bonds(s, "Bond/Modulus"); });
   for (const char *member : {"stiffness_ratio", "poisson_ratio"})
     law(member);
   law("tensile_strength").says("Stress at which it breaks in tension.");
   law("shear_strength").says("Its cohesion: shear stress at which it breaks without compression.");
   for (const char *key : {"Tensile strength", "Shear strength"})
-    section.at(key).needed_if(strength_is_missing).or_word("unbreakable", between(1e-3, 1e12));
+    section.at(key)
+        .needed_if([](const Situation &s) { return needed_by_bonds(s, "Bond/Tensile strength"); })
+        .or_word("unbreakable", between(1e-3, 1e12));
   for (const char *member : {"friction_angle", "moment_contribution"})
     law(member);
   section.at("Friction angle")

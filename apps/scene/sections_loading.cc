@@ -10,13 +10,6 @@
 namespace platen::apps {
 namespace {
 
-// Of those that a calibration wants.
-template <class Holds>
-bool any_target(const Scene &scene, const Holds &holds) {
-  const std::vector<Target> &targets = scene.calibrate.targets;
-  return std::any_of(targets.begin(), targets.end(), holds);
-}
-
 using By = dem::Weakening::By;
 
 bool any_weakens(const Scene &scene, By by) {
@@ -175,9 +168,8 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
   of("strip_width")
       .only_if(
           [](const Situation &s) {
-            return s.app == AppKind::brazilian || s.scene.loading.bending() ||
-                   any_target(s.scene,
-                              [](const Target &target) { return target.kind == TargetKind::splitting; });
+            return s.program.presses == Presses::discs || s.scene.loading.bending() ||
+                   s.used_by_program("Platens/Strip width");
           },
           "only platen-brazilian and three point bending have strips");
   of("span").only_if("Loading/Test", {"three point bending"}).told("Test = three point bending");
@@ -222,9 +214,7 @@ void declare_sleeve(Parameters &parameters, coupling::CellSettings &cell) {
         in("sleeve_stiffness", "Stiffness"), in("sleeve_seat_depth", "Seat depth"), of("contact_damping"),
         of("mass_damping", "Damping"), of("mass_scaling")})
     declared.only_if(
-        [](const Scene &s) {
-          return s.loading.sleeved() || any_target(s, [](const Target &target) { return target.sleeve; });
-        },
+        [](const Situation &s) { return s.scene.loading.sleeved() || s.used_by_program("Sleeve"); },
         "Loading/Confinement is not sleeve");
   of.rest();
 }
@@ -243,8 +233,9 @@ void declare_loading(Parameters &parameters, Loading &loading) {
       "holds the lateral surface; three point bending: strips approach, one above the middle of a bar "
       "along x, two below.");
   of("rate", "Axial rate").unless("Loading/Test", {"hydrostatic"}).needed_if([](const Situation &s) {
-    return s.loads() && s.app != AppKind::calibrate && !s.scene.loading.hydrostatic() &&
-                   !s.scene.loading.staged() && !s.rate_by_transits() && !s.varied("Loading/Axial rate")
+    const bool own = s.loads() && s.program.presses != Presses::trials;
+    return own && !s.scene.loading.hydrostatic() && !s.scene.loading.staged() && !s.rate_by_transits() &&
+                   !s.given_by_program("Loading/Axial rate")
                ? "the platens have to move."
                : "";
   });

@@ -8,21 +8,18 @@ set(PLATEN_SCENE_SOURCES
   scene/declared.cc
   scene/members.cc
   scene/sections.cc
-  scene/sections_apps.cc
   scene/sections_bond.cc
-  scene/sections_calibrate.cc
   scene/sections_expect.cc
   scene/sections_loading.cc
   scene/sections_specimen.cc
   scene/sections_stages.cc
   scene/file_text.cc
   scene/prm_file.cc
+  scene/program.cc
   scene/json_file.cc
   scene/parameter_writer.cc
   scene/checks.cc
-  scene/checks_apps.cc
   scene/checks_bond.cc
-  scene/checks_calibrate.cc
   scene/checks_layers.cc
   scene/checks_loading.cc
   scene/checks_notes.cc
@@ -31,16 +28,13 @@ set(PLATEN_SCENE_SOURCES
   scene/checks_specimen.cc
   scene/checks_stages.cc
   scene/quality.cc
-  scene/readers.cc
   scene/scene.cc
   scene/scene_bond.cc
   scene/scene_stages.cc
-  scene/scene_targets.cc
   scene/shipped.cc
   scene/surfaces.cc
   scene/layers.cc
   scene/expect.cc
-  scene/apps.cc
   scene/command_line.cc
   scene/run_app.cc
   scene/version.cc)

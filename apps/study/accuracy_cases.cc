@@ -5,6 +5,7 @@
 #include "apps/scene/parameters.h"
 #include "apps/scene/values.h"
 #include "apps/study/cases.h"
+#include "apps/study/study_section.h"
 
 namespace platen::apps {
 namespace {
@@ -111,7 +112,7 @@ void check_list(const Scene &scene, const NumberParameter &parameter, const std:
 }
 
 void add_numbers(StudyPlan &plan, const Scene &scene, const NumberParameter &from) {
-  const std::vector<double> &values = scene.study.*from.values;
+  const std::vector<double> &values = study_of(scene).*from.values;
   if (values.empty()) return;
   check_list(scene, from, values);
   StudiedParameter parameter{from.name, from.entry, from.unit, true, {}};
@@ -129,7 +130,7 @@ void add_numbers(StudyPlan &plan, const Scene &scene, const NumberParameter &fro
 
 void check_qualities(const Scene &scene) {
   const auto refuse = [&](const std::string &why) { scene.parameters->refuse("Study/Quality list", why); };
-  const std::vector<Quality> &words = scene.study.qualities;
+  const std::vector<Quality> &words = study_of(scene).qualities;
   const bool rising = std::adjacent_find(words.begin(), words.end(), std::greater_equal<>()) == words.end();
   if (words.size() < 2 || !rising || words.front() == Quality::custom)
     refuse(
@@ -143,10 +144,10 @@ void check_qualities(const Scene &scene) {
 }
 
 void add_qualities(StudyPlan &plan, const Scene &scene) {
-  if (scene.study.qualities.empty()) return;
+  if (study_of(scene).qualities.empty()) return;
   check_qualities(scene);
   StudiedParameter parameter{"quality", "Scene/Quality", "", true, {}};
-  for (const Quality kind : scene.study.qualities) {
+  for (const Quality kind : study_of(scene).qualities) {
     const std::string word = quality(kind).word;
     StudyCase one{base, {}, {}};
     if (kind != scene.general.quality) one = {"quality_" + word, {}, {"Scene/Quality = " + word}};
@@ -165,9 +166,9 @@ void check_change(const Scene &scene, const std::string &path, const std::string
 }
 
 void add_changes(StudyPlan &plan, const Scene &scene) {
-  if (scene.study.changes.empty()) return;
+  if (study_of(scene).changes.empty()) return;
   StudiedParameter parameter{"effects", "", "", false, {}};
-  for (const std::string &change : scene.study.changes) {
+  for (const std::string &change : study_of(scene).changes) {
     const std::string between = " = ";
     const std::size_t sign = change.find(between);
     check_change(scene, change.substr(0, sign), change.substr(sign + between.size()));

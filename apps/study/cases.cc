@@ -5,12 +5,13 @@
 #include <cctype>
 #include <cmath>
 
+#include "apps/programs.h"
 #include "apps/run/needs.h"
 #include "apps/run/shared_packing.h"
-#include "apps/scene/apps.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/values.h"
+#include "apps/study/study_section.h"
 
 namespace platen::apps {
 namespace {
@@ -27,7 +28,7 @@ std::vector<double> radii_in_proportion(const SpecimenSection &s) { // m
 
 StudyPlan plan_size(const Scene &scene) {
   const SpecimenSection &s = scene.specimen;
-  const Study &study = scene.study;
+  const Study &study = study_of(scene);
   if (s.packing == PackingKind::file)
     scene.parameters->refuse("Specimen/Packing",
                              "has one size: a study of it packs its own. Allowed: advancing front, "
@@ -54,7 +55,7 @@ StudyPlan plan_size(const Scene &scene) {
 }
 
 StudyPlan plan_packing(const Scene &scene) {
-  const Study &study = scene.study;
+  const Study &study = study_of(scene);
   const bool none = !scene.bond.bonded();
   const Parameters &p = *scene.parameters;
   if (study.gaps.empty() && study.radius_multipliers.empty() && study.radius_spreads.empty())
@@ -90,14 +91,14 @@ StudyPlan plan_packing(const Scene &scene) {
 }
 
 StudyPlan plan_rate(const Scene &scene) {
-  if (scene.study.axial_rates.empty())
+  if (study_of(scene).axial_rates.empty())
     scene.parameters->refuse("Study/Axial rate list",
                              "is not set: nothing is varied. Allowed: speeds with commas between them.");
   if (scene.loading.hydrostatic() || scene.loading.servo)
     scene.parameters->refuse("Study/Axial rate list", "needs platens that are driven by motion.");
   StudyPlan plan;
   plan.varied = {"axial_rate_m_s"};
-  for (const double rate : scene.study.axial_rates)
+  for (const double rate : study_of(scene).axial_rates)
     add(plan, {"rate_" + in_name(rate), {rate}, {set("Loading/Axial rate", rate, "m/s")}});
   return plan;
 }
@@ -155,7 +156,7 @@ Scene scene_of(const StudyCase &of, StudyKind kind, const Scene &scene, unsigned
                const std::vector<std::string> &overrides) {
   try {
     return read_scene(of.scene.empty() ? scene.path : of.scene, overrides_of(of, seed, overrides),
-                      AppKind::compress);
+                      program("compress"));
   } catch (const InputError &error) {
     throw InputError(scene.path + ": error: the study of " + word(kind) + " leads to " + of.name +
                      ", which cannot be run:\n" + error.what());
@@ -166,7 +167,7 @@ StudyPlan plan_study(StudyKind kind, const Scene &scene, const std::vector<std::
   StudyPlan plan = kind == StudyKind::target ? plan_target(scene, overrides)
                                              : plans[static_cast<std::size_t>(kind)](scene);
   plan.kind = kind;
-  const int seeds = kind == StudyKind::target ? scene.study.target.pilot_seeds : scene.study.seeds;
+  const int seeds = kind == StudyKind::target ? study_of(scene).target.pilot_seeds : study_of(scene).seeds;
   for (int k = 0; k < seeds; ++k)
     plan.seeds.push_back(scene.general.seed + static_cast<unsigned long>(k));
   for (StudyCase &one : plan.cases) {

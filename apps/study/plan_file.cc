@@ -9,6 +9,7 @@
 #include "apps/io/csv_writer.h"
 #include "apps/io/file.h"
 #include "apps/io/sha256.h"
+#include "apps/programs.h"
 #include "apps/run/app_output.h"
 #include "apps/run/changed_scene.h"
 #include "apps/run/needs.h"
@@ -46,7 +47,7 @@ CountedCosts with_libraries(CountedCosts costs) {
 // Of the first run of a case.
 CountedCosts costs_of_run(const StudyRun &run) {
   try {
-    return with_libraries(counted_costs(read_scene(run.scene, run.overrides, AppKind::compress)));
+    return with_libraries(counted_costs(read_scene(run.scene, run.overrides, program("compress"))));
   } catch (const std::exception &) { // which its run will tell
     return {not_given, not_given, not_given};
   }

@@ -8,6 +8,7 @@
 #include "apps/scene/surfaces.h"
 #include "apps/scene/values.h"
 #include "apps/study/cases.h"
+#include "apps/study/study_section.h"
 
 namespace platen::apps {
 namespace {
@@ -19,7 +20,7 @@ void check_test(const Scene &scene) {
 }
 
 void check_surfaces(const Scene &scene) {
-  if (scene.study.surfaces.empty()) return;
+  if (study_of(scene).surfaces.empty()) return;
   for (const coupling::Side side : coupling::all_sides)
     for (const char *key : {"/Surface", "/Friction static", "/Friction dynamic", "/Friction law"})
       if (scene.platens.has(side) && scene.parameters->at(section_of(side) + key).changed())
@@ -29,7 +30,7 @@ void check_surfaces(const Scene &scene) {
 }
 
 void check_heights(const Scene &scene) {
-  if (scene.study.slendernesses.empty()) return;
+  if (study_of(scene).slendernesses.empty()) return;
   const SpecimenSection &s = scene.specimen;
   if (s.packing == PackingKind::file)
     scene.parameters->refuse(
@@ -42,7 +43,7 @@ void check_heights(const Scene &scene) {
 }
 
 void check_pressures(const Scene &scene) {
-  const bool any = std::any_of(scene.study.pressures.begin(), scene.study.pressures.end(),
+  const bool any = std::any_of(study_of(scene).pressures.begin(), study_of(scene).pressures.end(),
                                [](double pressure) { return pressure > 0; });
   if (any && scene.loading.confinement == ConfinementKind::none)
     scene.parameters->refuse("Study/Confining pressure list",
@@ -94,7 +95,7 @@ void set_pressure(double pressure, StudyCase &one) {
 }
 
 StudyPlan plan_platens(const Scene &scene) {
-  const Study &study = scene.study;
+  const Study &study = study_of(scene);
   check_test(scene);
   check_surfaces(scene);
   check_heights(scene);
@@ -123,7 +124,7 @@ StudyPlan plan_platens(const Scene &scene) {
 } // namespace
 
 StudyPlan plan_friction(const Scene &scene) {
-  if (scene.study.surfaces.empty())
+  if (study_of(scene).surfaces.empty())
     scene.parameters->refuse("Study/Surface list",
                              "is not set: nothing is varied. Allowed: words of Platens/Surface and "
                              "coefficients of friction with commas between them.");
@@ -131,11 +132,11 @@ StudyPlan plan_friction(const Scene &scene) {
 }
 
 StudyPlan plan_slenderness(const Scene &scene) {
-  if (scene.study.slendernesses.empty())
+  if (study_of(scene).slendernesses.empty())
     scene.parameters->refuse(
         "Study/Slenderness list",
         "is not set: nothing is varied. Allowed: heights over the width with commas between them.");
-  if (scene.study.surfaces.size() > 1)
+  if (study_of(scene).surfaces.size() > 1)
     scene.parameters->refuse(
         "Study/Surface list",
         "holds several: a study of slenderness has one kind of platens. Allowed: one, or "

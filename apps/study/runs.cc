@@ -15,10 +15,10 @@
 #include "apps/io/numbers.h"
 #include "apps/io/sha256.h"
 #include "apps/io/stop_signal.h"
+#include "apps/programs.h"
 #include "apps/run/app_output.h"
 #include "apps/run/compression.h"
 #include "apps/run/ranks.h"
-#include "apps/scene/apps.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/version.h"
 
@@ -37,7 +37,7 @@ std::string other_run(const Json &summary, const StudyRun &run) {
   const OutputPaths paths(run.folder);
   if (text_in(summary, "scene_sha256") != sha256_of_file(paths.scene()).value_or("missing"))
     return "scene.prm is not the scene that summary.json was made with";
-  const Scene scene = read_scene(run.scene, run.overrides, AppKind::compress);
+  const Scene scene = read_scene(run.scene, run.overrides, program("compress"));
   if (const std::vector<SceneChange> changes = changes_of_scene(scene, paths); !changes.empty())
     return fmt::format("it is of another scene: {} was \"{}\", now \"{}\"", changes[0].entry, changes[0].was,
                        changes[0].now);
@@ -223,7 +223,7 @@ fs::path compress_program() {
 Process start_compress(const std::vector<std::string> &command, Process::Output output) {
   if (!has_one_thread()) return Process(command, output);
   const auto compress = [](int argc, char **argv) {
-    return run_app_on_ranks(argc, argv, description_of(AppKind::compress), run_compression);
+    return run_app_on_ranks(argc, argv, program("compress"), run_compression);
   };
   return Process(command, compress, output);
 }

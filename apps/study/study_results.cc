@@ -108,7 +108,7 @@ int StudyResults::finish(const Json &costs) {
   Json study = study_json();
   const std::string compared = compare(study);
   write_summary(paths_.study_json(), study);
-  Json s = summary_head(scene_, "platen-study", study["status"], effects_on(scene_, AppKind::study));
+  Json s = summary_head(scene_, "platen-study", study["status"], effects_on(scene_));
   s.update(study);
   s["expectations"] = Json::array();
   for (const Json &of_run : expectations_)

@@ -10,6 +10,7 @@
 #include "apps/run/problem_setup.h"
 #include "apps/scene/shell.h"
 #include "apps/study/study_results.h"
+#include "apps/study/study_section.h"
 #include "apps/study/target_report.h"
 
 namespace platen::apps {
@@ -64,7 +65,7 @@ void write_results(const TargetStudy &study, const StudyTables &tables, const Js
   const Json json =
       study_json(study, tables, study.decision().verdict == Verdict::unknown ? "failed" : "done");
   write_summary(paths.study_json(), json);
-  Json s = summary_head(scene, "platen-study", json["status"], effects_on(scene, AppKind::study));
+  Json s = summary_head(scene, "platen-study", json["status"], effects_on(scene));
   s.update(json);
   s["expectations"] = expectations;
   s["missed"] = missed_in(expectations);
@@ -145,7 +146,7 @@ int make_target(const TargetSetup &setup, RunLog &log, const std::function<Json(
   if (study.decision().verdict == Verdict::unknown)
     log.error("too few runs gave the figure: no interval can be told");
   if (study.decision().verdict == Verdict::out_of_runs)
-    log.error("the accuracy of {:.2g} % was not reached: {}", 100 * setup.scene.study.target.accuracy,
+    log.error("the accuracy of {:.2g} % was not reached: {}", 100 * study_of(setup.scene).target.accuracy,
               estimate_text(study, *study.decision().estimate, study.decision().half));
   return status_of(study, missed_in(expectations));
 }

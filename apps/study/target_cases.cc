@@ -5,6 +5,7 @@
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
 #include "apps/study/cases.h"
+#include "apps/study/study_section.h"
 #include "apps/study/target_model.h"
 
 namespace platen::apps {
@@ -25,7 +26,7 @@ void check_transits(const Scene &scene) {
 }
 
 void check_gain(const Scene &scene) {
-  const StudyTarget &target = scene.study.target;
+  const StudyTarget &target = study_of(scene).target;
   const bool gain = target.figure == TargetFigure::gain, over_scene = !target.over_scene.empty(),
              over = !target.over.empty();
   if (!gain && (over_scene || over))
@@ -49,7 +50,7 @@ void check_test(const Scene &scene, TargetFigure figure) {
 }
 
 void check(const Scene &scene) {
-  const StudyTarget &target = scene.study.target;
+  const StudyTarget &target = study_of(scene).target;
   check_test(scene, target.figure);
   if (scene.specimen.packing == PackingKind::file && !scene.bond.scattered)
     refuse(
@@ -111,9 +112,10 @@ StudyCase case_of(const Scene &scene, bool over, double transits, const std::str
   one.name = prefix + (over ? "over_" : "") + "wave_crossings_" + in_name(transits);
   one.labels = {transits};
   one.overrides = without_target(scene);
-  if (over && scene.study.target.over_scene.empty())
-    one.overrides.insert(one.overrides.end(), scene.study.target.over.begin(), scene.study.target.over.end());
-  if (over) one.scene = scene.study.target.over_scene;
+  if (over && study_of(scene).target.over_scene.empty())
+    one.overrides.insert(one.overrides.end(), study_of(scene).target.over.begin(),
+                         study_of(scene).target.over.end());
+  if (over) one.scene = study_of(scene).target.over_scene;
   one.overrides.emplace_back("Loading/Axial rate =");
   one.overrides.push_back(set("Loading/Wave crossings", transits, ""));
   one.overrides.insert(one.overrides.end(), more.begin(), more.end());
@@ -123,7 +125,7 @@ StudyCase case_of(const Scene &scene, bool over, double transits, const std::str
 Scene read_other(const Scene &scene, const StudyCase &over, const std::vector<std::string> &overrides) {
   Scene other = scene_of(over, StudyKind::target, scene, scene.general.seed, overrides);
   try {
-    check_other(other, scene.study.target);
+    check_other(other, study_of(scene).target);
   } catch (const InputError &error) {
     throw InputError(scene.path + ": error: a gain is over a scene that has none:\n" + error.what());
   }
@@ -133,11 +135,11 @@ Scene read_other(const Scene &scene, const StudyCase &over, const std::vector<st
 } // namespace
 
 std::vector<double> target_transits(const Scene &scene) {
-  return scene.study.wave_transits.empty() ? usual_transits : scene.study.wave_transits;
+  return study_of(scene).wave_transits.empty() ? usual_transits : study_of(scene).wave_transits;
 }
 
 TargetCases target_cases(const Scene &scene) {
-  const StudyTarget &target = scene.study.target;
+  const StudyTarget &target = study_of(scene).target;
   return {target_transits(scene).size(), target.figure == TargetFigure::gain ? 2U : 1U, target.step_seeds > 0,
           target.coarser_seeds > 0};
 }

@@ -6,6 +6,7 @@
 
 #include "apps/run/needs.h"
 #include "apps/run/specimen_setup.h"
+#include "apps/study/study_section.h"
 #include "apps/study/tables.h"
 #include "apps/study/target_prior.h"
 
@@ -43,7 +44,7 @@ LinearCost line_through(const std::vector<double> &transits, const std::vector<d
 }
 
 TargetFigures::TargetFigures(const Scene &scene)
-    : figure_(scene.study.target.figure), cases_(target_cases(scene)), transits_(target_transits(scene)) {
+    : figure_(study_of(scene).target.figure), cases_(target_cases(scene)), transits_(target_transits(scene)) {
   works_.resize(cases_.scenes * (cases_.speeds + 2));
   const bool packed = scene.specimen.packing != PackingKind::file;
   counted_spheres_ = packed ? counted_costs(scene, specimen_shape(scene)).spheres : usual_spheres;

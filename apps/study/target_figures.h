@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/study/runs.h"
+#include "apps/study/study_section.h"
 #include "apps/study/target_plan.h"
 
 namespace platen::apps {

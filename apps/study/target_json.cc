@@ -1,6 +1,7 @@
 // A study of a target for study.json.
 #include <cmath>
 
+#include "apps/study/study_section.h"
 #include "apps/study/target_report.h"
 
 namespace platen::apps {

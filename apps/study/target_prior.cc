@@ -1,6 +1,7 @@
 #include "apps/study/target_prior.h"
 
 #include <cmath>
+#include "apps/study/study_section.h"
 
 namespace platen::apps {
 namespace {

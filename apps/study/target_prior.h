@@ -1,7 +1,7 @@
 // By what runs of a figure are expected to differ before there are any.
 #pragma once
 
-#include "apps/scene/scene.h"
+#include "apps/study/study_section.h"
 #include "apps/study/target_model.h"
 
 namespace platen::apps {

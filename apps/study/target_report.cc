@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "apps/study/study_section.h"
 #include "apps/study/tables.h"
 
 namespace platen::apps {

@@ -1,6 +1,7 @@
 // Figures of a study of a target that its words and its study.json share.
 #include <cmath>
 
+#include "apps/study/study_section.h"
 #include "apps/study/target_report.h"
 
 namespace platen::apps {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/study/study_section.h"
 #include "apps/study/target_prior.h"
 
 namespace platen::apps {
@@ -17,29 +18,29 @@ TargetStudy::TargetStudy(const TargetSetup &setup)
     : setup_(setup), cases_(target_cases(setup.scene)), figures_(setup.scene) {
   state_.runs.transits = target_transits(setup.scene);
   state_.made.assign(cases_.speeds, 0);
-  state_.errors = expected_errors(setup.scene.study.target.figure, figures_.spheres());
+  state_.errors = expected_errors(study_of(setup.scene).target.figure, figures_.spheres());
 }
 
 double TargetStudy::step_error() const {
-  const StudyTarget &target = setup_.scene.study.target;
+  const StudyTarget &target = study_of(setup_.scene).target;
   const auto measured = figures_.of_half_step();
   const bool tells = measured && measured->is_certain(target.confidence);
   return tells ? std::max(target.step_allowance, std::abs(measured->mean)) : target.step_allowance;
 }
 
 Aim TargetStudy::aim() const {
-  const StudyTarget &target = setup_.scene.study.target;
+  const StudyTarget &target = study_of(setup_.scene).target;
   return {target.accuracy, target.confidence, std::pow(step_error(), 2), most_packings,
           static_cast<std::size_t>(target.pilot_seeds)};
 }
 
 std::size_t TargetStudy::side_runs() const {
-  const StudyTarget &target = setup_.scene.study.target;
+  const StudyTarget &target = study_of(setup_.scene).target;
   return cases_.scenes * static_cast<std::size_t>(target.step_seeds + target.coarser_seeds);
 }
 
 std::size_t TargetStudy::most_per_scene() const {
-  const auto most = static_cast<std::size_t>(setup_.scene.study.target.most_runs);
+  const auto most = static_cast<std::size_t>(study_of(setup_.scene).target.most_runs);
   return (most - std::min(most, side_runs())) / cases_.scenes;
 }
 
@@ -63,7 +64,7 @@ void TargetStudy::add_to_batch(std::size_t of_case, std::size_t packing) {
 // Fast runs first: what slow ones need is packed then.
 void TargetStudy::fill_batch(const Counts &next) {
   batch_.clear(), packings_.clear();
-  const StudyTarget &target = setup_.scene.study.target;
+  const StudyTarget &target = study_of(setup_.scene).target;
   const bool first = *std::max_element(state_.made.begin(), state_.made.end()) == 0;
   for (std::size_t k = 0; k < cases_.speeds; ++k)
     for (std::size_t s = state_.made[k]; s < next[k]; ++s)
@@ -92,7 +93,7 @@ bool TargetStudy::work(const Carry &carry, const Told &told) {
       return false;
     }
     state_.runs = figures_.runs();
-    state_.errors.prior = expected_spread(setup_.scene.study.target.figure, figures_.spheres());
+    state_.errors.prior = expected_spread(study_of(setup_.scene).target.figure, figures_.spheres());
     decision_ = decide(state_, figures_.costs(), aim(), most_per_scene(), figures_.curvature_of_scenes());
     next = decision_.next;
     if (decision_.estimate)

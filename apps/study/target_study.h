@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "apps/study/study_section.h"
 #include "apps/study/target_decision.h"
 #include "apps/study/target_figures.h"
 
@@ -43,7 +44,7 @@ public:
   void add(std::size_t k, const RunOutcome &outcome);
 
   const TargetSetup &setup() const { return setup_; }
-  const StudyTarget &target() const { return setup_.scene.study.target; }
+  const StudyTarget &target() const { return study_of(setup_.scene).target; }
   const TargetFigures &figures() const { return figures_; }
   const TargetState &state() const { return state_; }
   const Decision &decision() const { return decision_; }

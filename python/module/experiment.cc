@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "apps/programs.h"
 #include "apps/scene/errors.h"
 
 namespace platen::python {
@@ -53,8 +54,8 @@ apps::CommandLine command_of(const Experiment::Options &options) {
 
 Experiment::Experiment(const Options &options)
     : command_(command_of(options)),
-      kind_(options.disc ? apps::AppKind::brazilian : apps::AppKind::compress),
-      scene_(apps::read_scene(options.scene, options.overrides, kind_)) {
+      program_(apps::program(options.disc ? "brazilian" : "compress")),
+      scene_(apps::read_scene(options.scene, options.overrides, program_)) {
   const KeptSignals kept;
   run_ = std::make_unique<apps::CompressionRun>(
       command_, scene_, options.disc ? apps::Pressed::across_axis : apps::Pressed::along_axis);
@@ -113,7 +114,7 @@ void Experiment::change(const std::vector<std::string> &assignments) {
     throw apps::InputError("the experiment has ended: nothing can be changed");
   std::vector<std::string> overrides = command_.overrides;
   overrides.insert(overrides.end(), assignments.begin(), assignments.end());
-  apps::Scene now = apps::read_scene(command_.scene, overrides, kind_);
+  apps::Scene now = apps::read_scene(command_.scene, overrides, program_);
   run_->change(now);
   command_.overrides = std::move(overrides);
   scene_ = std::move(now);

@@ -58,7 +58,7 @@ public:
 
 private:
   apps::CommandLine command_;
-  apps::AppKind kind_;
+  const apps::Program &program_;
   apps::Scene scene_; // the run holds it by reference
   std::unique_ptr<apps::CompressionRun> run_;
   void require_between_passes(const char *call) const;

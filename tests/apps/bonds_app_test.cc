@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/bonds/run_bonds.h"
+#include "apps/programs.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps {
@@ -36,7 +37,7 @@ protected:
     command.output = (folder / to).string();
     command.quiet = true;
     command.overwrite = overwrite;
-    return run_bonds(command, read_scene(file, {}, AppKind::bonds));
+    return run_bonds(command, read_scene(file, {}, program("bonds")));
   }
 
   fs::path folder;

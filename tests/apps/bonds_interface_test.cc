@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/bonds/run_bonds.h"
+#include "apps/programs.h"
 #include "apps/scene/errors.h"
 #include "tests/measured.h"
 
@@ -21,7 +22,7 @@ constexpr double close = 1e-8;
 
 BondRun run_pair(const Words &overrides) {
   return run_bond_tests(
-             read_scene(std::string(PLATEN_SCENES) + "/softening_bond.prm", overrides, AppKind::bonds))
+             read_scene(std::string(PLATEN_SCENES) + "/softening_bond.prm", overrides, program("bonds")))
       .at(0);
 }
 
@@ -296,7 +297,7 @@ TEST(bonds_interface, what_cannot_be_led_is_refused) {
       EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
     }
   EXPECT_THROW(read_scene(std::string(PLATEN_SCENES) + "/two_particles.prm", {"Pair test/Path = combined"},
-                          AppKind::bonds),
+                          program("bonds")),
                InputError);
 }
 

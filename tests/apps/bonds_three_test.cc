@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/bonds/run_bonds.h"
+#include "apps/programs.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps {
@@ -13,7 +14,7 @@ namespace {
 using Words = std::vector<std::string>;
 
 Scene pyramid_scene(const Words &overrides) {
-  return read_scene(std::string(PLATEN_SCENES) + "/three_particles.prm", overrides, AppKind::bonds);
+  return read_scene(std::string(PLATEN_SCENES) + "/three_particles.prm", overrides, program("bonds"));
 }
 
 struct Variant {

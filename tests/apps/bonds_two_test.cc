@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/bonds/run_bonds.h"
+#include "apps/programs.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps {
@@ -13,7 +14,7 @@ namespace {
 using Words = std::vector<std::string>;
 
 Scene pair_scene(const Words &overrides) {
-  return read_scene(std::string(PLATEN_SCENES) + "/two_particles.prm", overrides, AppKind::bonds);
+  return read_scene(std::string(PLATEN_SCENES) + "/two_particles.prm", overrides, program("bonds"));
 }
 
 // The row nearest to a load, which the scene's load steps meet exactly.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/bonds/run_bonds.h"
+#include "apps/programs.h"
 #include "apps/scene/errors.h"
 #include "tests/measured.h"
 
@@ -19,7 +20,7 @@ constexpr double area = 3.14159265358979323846e-6;
 BondRun run_pair(Words overrides) {
   if (!overrides.empty()) overrides.insert(overrides.begin(), "Pair test/Turns =");
   return run_bond_tests(
-             read_scene(std::string(PLATEN_SCENES) + "/yielding_bond.prm", overrides, AppKind::bonds))
+             read_scene(std::string(PLATEN_SCENES) + "/yielding_bond.prm", overrides, program("bonds")))
       .at(0);
 }
 
@@ -97,7 +98,7 @@ TEST(bonds_yielding, stiffness_ratios_are_a_list_as_of_the_parallel_bond) {
       read_scene(std::string(PLATEN_SCENES) + "/yielding_bond.prm",
                  {"Pair test/Turns =", "Pair test/Path = shear", "Pair test/Displacement = 1 um",
                   "Pair test/Stiffness ratio list = 0.2, 0.4"},
-                 AppKind::bonds);
+                 program("bonds"));
   const std::vector<BondRun> runs = run_bond_tests(scene);
   ASSERT_EQ(runs.size(), 2u);
   EXPECT_NEAR(runs[1].path.rows.back().force, 2 * runs[0].path.rows.back().force,

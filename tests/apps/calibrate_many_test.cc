@@ -31,8 +31,8 @@ Scene yielding_scene() {
   s.bond.set("friction_angle", 35 * degree);
   s.bond.set("moment_contribution", 0.5);
   s.contact.friction = 0.5;
-  s.calibrate.most_trials = 60;
-  s.calibrate.tolerance = 0.02;
+  s.own<Calibrate>().most_trials = 60;
+  s.own<Calibrate>().tolerance = 0.02;
   return s;
 }
 
@@ -81,9 +81,9 @@ double power_law(const Goals &goals, const Goal &goal, const Choice &choice) {
 // A start that is off by half and more, nothing known of how strengths go with anything.
 TEST(ManyTargets, eight_parameters_of_a_manufactured_response_are_recovered) {
   Scene scene = yielding_scene();
-  scene.calibrate.targets = eight_targets(0.002);
-  scene.calibrate.free = eight;
-  scene.calibrate.differences = true;
+  scene.own<Calibrate>().targets = eight_targets(0.002);
+  scene.own<Calibrate>().free = eight;
+  scene.own<Calibrate>().differences = true;
   const Goals goals(scene);
   const Found f =
       search(scene, goals,
@@ -98,7 +98,7 @@ TEST(ManyTargets, eight_parameters_of_a_manufactured_response_are_recovered) {
   }
   measured::expect_below(54, "worst_of_eight_parameters_off", off, 0.03);
   measured::note_figure(54, "trials", static_cast<double>(f.trials), "<= 40");
-  const Analysis a = analyse(goals, scene.calibrate.tolerance, f.sensitivities);
+  const Analysis a = analyse(goals, scene.own<Calibrate>().tolerance, f.sensitivities);
   EXPECT_TRUE(f.sensitivities.measured);
   // A line through differences that reach to twice the moment contribution is no power law.
   for (Eigen::Index knob = 0; knob < 8; ++knob)
@@ -115,8 +115,9 @@ TEST(ManyTargets, eight_parameters_of_a_manufactured_response_are_recovered) {
 TEST(ManyTargets, a_short_specimen_is_compared_with_one_twice_as_high_as_wide) {
   Scene scene = yielding_scene();
   scene.specimen.radius = 0.025, scene.specimen.height = 0.1;
-  scene.calibrate.targets = {target_of(TargetKind::strength, 43e6), target_of(TargetKind::slenderness, 1.15),
-                             target_of(TargetKind::secant_ratio, 0.2)};
+  scene.own<Calibrate>().targets = {target_of(TargetKind::strength, 43e6),
+                                    target_of(TargetKind::slenderness, 1.15),
+                                    target_of(TargetKind::secant_ratio, 0.2)};
   const auto names = [&] {
     const Goals goals(scene);
     std::vector<std::string> all;
@@ -155,9 +156,9 @@ TEST(ManyTargets, are_told_in_the_unit_of_their_words) {
 // What ends at zero has its effect all the same, and is zero exactly.
 TEST(ManyTargets, a_friction_angle_of_zero_is_sensed_by_a_tenth_of_its_room) {
   Scene scene = yielding_scene();
-  scene.calibrate.free = {Knob::modulus, Knob::friction_angle};
+  scene.own<Calibrate>().free = {Knob::modulus, Knob::friction_angle};
   Choice at = choice_of(scene);
-  const Space space(scene, at, scene.calibrate.free);
+  const Space space(scene, at, scene.own<Calibrate>().free);
   Eigen::MatrixXd slopes(1, 2);
   slopes << 0, 3;
   Eigen::VectorXd x(2);
@@ -172,9 +173,9 @@ TEST(ManyTargets, a_friction_angle_of_zero_is_sensed_by_a_tenth_of_its_room) {
 
 TEST(ManyTargets, parameters_that_act_as_one_are_told) {
   Scene scene = yielding_scene();
-  scene.calibrate.targets = {target_of(TargetKind::strength, 43e6), at_pressure(3e6, 62e6)};
-  scene.calibrate.free = {Knob::compression_limits, Knob::contact_friction};
-  scene.calibrate.differences = true;
+  scene.own<Calibrate>().targets = {target_of(TargetKind::strength, 43e6), at_pressure(3e6, 62e6)};
+  scene.own<Calibrate>().free = {Knob::compression_limits, Knob::contact_friction};
+  scene.own<Calibrate>().differences = true;
   const Goals goals(scene);
   const Found f =
       search(scene, goals, test_of(goals, [](const Goal &goal, const Choice &c) {
@@ -182,7 +183,7 @@ TEST(ManyTargets, parameters_that_act_as_one_are_told) {
                       std::pow(c[Knob::compression_limits] * c[Knob::contact_friction] / 0.6, 0.5);
              }));
   EXPECT_NEAR(f.choice[Knob::compression_limits] * f.choice[Knob::contact_friction], 0.6, 0.03);
-  const Analysis a = analyse(goals, scene.calibrate.tolerance, f.sensitivities);
+  const Analysis a = analyse(goals, scene.own<Calibrate>().tolerance, f.sensitivities);
   EXPECT_LT(a.correlations(0, 1), -0.99);
   ASSERT_EQ(a.correlated.size(), 1u);
   EXPECT_NE(a.correlated[0].find("factor of compression limits against contact friction"), std::string::npos);
@@ -193,12 +194,13 @@ TEST(ManyTargets, parameters_that_act_as_one_are_told) {
 // One number cannot be two: the nearest lies between, by their weights, and each pulls against the other.
 TEST(ManyTargets, what_cannot_be_met_together_is_told_with_what_pulls) {
   Scene scene = yielding_scene();
-  scene.calibrate.targets = {target_of(TargetKind::strength, 40e6), target_of(TargetKind::strength, 50e6),
-                             target_of(TargetKind::tension, 4.5e6)};
-  scene.calibrate.targets[1].box = true;
-  scene.calibrate.targets[1].weight = 3;
-  scene.calibrate.free = {Knob::tensile_strength, Knob::shear_strength};
-  scene.calibrate.differences = true;
+  scene.own<Calibrate>().targets = {target_of(TargetKind::strength, 40e6),
+                                    target_of(TargetKind::strength, 50e6),
+                                    target_of(TargetKind::tension, 4.5e6)};
+  scene.own<Calibrate>().targets[1].box = true;
+  scene.own<Calibrate>().targets[1].weight = 3;
+  scene.own<Calibrate>().free = {Knob::tensile_strength, Knob::shear_strength};
+  scene.own<Calibrate>().differences = true;
   const Goals goals(scene);
   const Found f = search(scene, goals, test_of(goals, [](const Goal &goal, const Choice &c) {
                            const bool tension = goal.target.kind == TargetKind::tension;
@@ -283,10 +285,10 @@ TEST_F(CurveFile, a_search_recovers_what_a_curve_was_made_of) {
     file << 5e-5 * k << "," << stress(30e9, 40e6, 5e-5 * k) << "\n";
   file.close();
   Scene scene = yielding_scene();
-  scene.calibrate.targets = {target_of(TargetKind::curve, not_given, 0.01)};
-  scene.calibrate.targets[0].file = path.string();
-  scene.calibrate.free = {Knob::modulus, Knob::tensile_strength};
-  scene.calibrate.differences = true;
+  scene.own<Calibrate>().targets = {target_of(TargetKind::curve, not_given, 0.01)};
+  scene.own<Calibrate>().targets[0].file = path.string();
+  scene.own<Calibrate>().free = {Knob::modulus, Knob::tensile_strength};
+  scene.own<Calibrate>().differences = true;
   scene.model.bond_layout.modulus = 20e9;
   const Goals goals(scene);
   const Measurement test = [&](const std::vector<Choice> &choices, bool) {

@@ -21,11 +21,11 @@ Scene scene_of(double compressive, double tensile, double triaxial = not_given) 
   s.bond.set("shear_strength", 26.6e6);
   s.bond.set("friction_angle", 45 * degree);
   s.bond.set("moment_contribution", 0.3);
-  if (given(compressive)) s.calibrate.targets.push_back(target_of(TargetKind::strength, compressive));
-  if (given(tensile)) s.calibrate.targets.push_back(target_of(TargetKind::tension, tensile));
-  if (given(triaxial)) s.calibrate.targets.push_back(at_pressure(4.5e6, triaxial));
-  s.calibrate.tolerance = 0.02;
-  s.calibrate.most_trials = 30;
+  if (given(compressive)) s.own<Calibrate>().targets.push_back(target_of(TargetKind::strength, compressive));
+  if (given(tensile)) s.own<Calibrate>().targets.push_back(target_of(TargetKind::tension, tensile));
+  if (given(triaxial)) s.own<Calibrate>().targets.push_back(at_pressure(4.5e6, triaxial));
+  s.own<Calibrate>().tolerance = 0.02;
+  s.own<Calibrate>().most_trials = 30;
   return s;
 }
 
@@ -148,15 +148,15 @@ TEST(StrengthSearch, a_triaxial_strength_is_met_beside_a_compressive_one_alone) 
 TEST(StrengthSearch, the_friction_angle_is_turned_within_its_bounds_alone) {
   Scene scene = scene_of(5.4 * 4e6, 4e6);
   scene.bond.set("friction_angle", 0);
-  scene.calibrate.moments_low = 0.3; // not to be turned
-  scene.calibrate.strengths_high = 1;
+  scene.own<Calibrate>().moments_low = 0.3; // not to be turned
+  scene.own<Calibrate>().strengths_high = 1;
   StandIn specimen;
   const Result without = found(scene, specimen);
   EXPECT_EQ(without[Knob::friction_angle], 0);
   EXPECT_FALSE(without.missed.empty());
   ASSERT_EQ(without.found.at_bounds.size(), 1u);
   EXPECT_NE(without.found.at_bounds[0].find("searched from 0.5 to 1)"), std::string::npos);
-  scene.calibrate.friction_high = 40 * degree;
+  scene.own<Calibrate>().friction_high = 40 * degree;
   const Result with = found(scene, specimen);
   EXPECT_TRUE(with.missed.empty());
   EXPECT_GT(with[Knob::friction_angle], 5 * degree);

@@ -18,6 +18,7 @@
 #include "apps/io/sha256.h"
 #include "apps/io/stop_signal.h"
 #include "apps/program.h"
+#include "apps/programs.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps {
@@ -79,7 +80,7 @@ protected:
   }
 
   Scene read(const std::vector<std::string> &overrides) const {
-    return read_scene((folder / "case.prm").string(), overrides, AppKind::calibrate);
+    return read_scene((folder / "case.prm").string(), overrides, program("calibrate"));
   }
   // A calibration that does not meet its targets ends with status 1 and says by how much, any other with 0.
   nlohmann::json run(const std::vector<std::string> &overrides, const std::string &to, bool resume = false,
@@ -186,7 +187,7 @@ TEST_F(CalibrateApp, the_search_recovers_the_bonds_of_a_known_specimen) {
   EXPECT_NEAR(found["found"]["bond_modulus_pa"].get<double>(), 36e9, 36e6);
   EXPECT_EQ(found["verification"]["poisson_ratio"]["seeds"], 1);
   EXPECT_TRUE(found["missed"].empty());
-  const Scene scene = read_scene((folder / "found/found.prm").string(), {}, AppKind::compress);
+  const Scene scene = read_scene((folder / "found/found.prm").string(), {}, program("compress"));
   EXPECT_EQ(scene.model.bond_layout.modulus, found["found"]["bond_modulus_pa"].get<double>());
   EXPECT_EQ(scene.bond.number("stiffness_ratio"), found["found"]["stiffness_ratio"].get<double>());
 }
@@ -199,7 +200,7 @@ TEST_F(CalibrateApp, what_the_first_bonds_were_calibrated_on_judges_no_trial) {
       "a");
   EXPECT_EQ(s["failed_trials"], 0);
   EXPECT_GT(s["strength_pa"].get<double>(), 20e6);
-  const Scene found = read_scene((folder / "a/found.prm").string(), {}, AppKind::compress);
+  const Scene found = read_scene((folder / "a/found.prm").string(), {}, program("compress"));
   EXPECT_TRUE(found.bond.calibrated.figures.empty());
 }
 

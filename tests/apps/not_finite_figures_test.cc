@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/io/summary.h"
+#include "apps/programs.h"
 #include "apps/run/history.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/quasi_static.h"
@@ -47,7 +48,7 @@ protected:
                                        "Loading/Confining pressure = 2 MPa"};
     overrides.insert(overrides.end(), more.begin(), more.end());
     return read_scene((std::filesystem::path(PLATEN_TEST_SCENES) / "crushed.prm").string(), overrides,
-                      AppKind::compress);
+                      program("compress"));
   }
   explicit NotFinite(const std::vector<std::string> &more = {})
       : scene_(read(more)), problem_(make_bonded_specimen(scene_), problem_settings(scene_)) {}

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/io/specimen_csv.h"
+#include "apps/programs.h"
 #include "apps/run/pack.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/errors.h"
@@ -60,7 +61,7 @@ protected:
 
   void write(const std::string &name, const std::string &text) const { std::ofstream(folder / name) << text; }
   Scene scene(const std::string &name, const Words &overrides = {}) const {
-    return read_scene((folder / name).string(), overrides, AppKind::pack);
+    return read_scene((folder / name).string(), overrides, program("pack"));
   }
   int run(const Scene &of, const std::string &to) const {
     CommandLine command;

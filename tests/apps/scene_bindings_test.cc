@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "apps/programs.h"
 #include "apps/run/model_setup.h"
 #include "apps/run/problem_setup.h"
 #include "apps/scene/errors.h"
@@ -18,7 +19,7 @@ namespace {
 const std::string good = (std::filesystem::path(PLATEN_TEST_DATA) / "fragment" / "good.prm").string();
 
 Scene scene_with(const std::vector<std::string> &overrides) {
-  return read_scene(good, overrides, AppKind::compress);
+  return read_scene(good, overrides, program("compress"));
 }
 
 template <class Parameters>
@@ -34,7 +35,7 @@ std::vector<std::string> members_of() {
 }
 
 TEST(SceneBindings, every_number_of_every_bond_law_has_an_entry_that_sets_it_in_all_laws) {
-  const Scene plain = default_scene();
+  const Scene plain = default_scene(program("compress"));
   dem::BondLaws::for_each([&](auto *law) {
     using Law = std::remove_pointer_t<decltype(law)>;
     for (const std::string &member : members_of<typename Law::Parameters>())
@@ -122,7 +123,7 @@ TEST(SceneBindings, another_packing_than_the_bonds_are_calibrated_for_is_refused
   const std::vector<std::string> another{"Bond/Calibrated packing = random close",
                                          "Specimen/Packing = advancing front"};
   EXPECT_THROW(scene_with(another), InputError);
-  EXPECT_NO_THROW(read_scene(good, another, AppKind::pack));
+  EXPECT_NO_THROW(read_scene(good, another, program("pack")));
   EXPECT_NO_THROW(scene_with({another[0], "Specimen/Packing = random close"}));
   EXPECT_NO_THROW(scene_with({"Bond/Calibrated packing = any", another[1]}));
 }

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "apps/io/specimen_csv.h"
+#include "apps/programs.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/scene.h"
 
@@ -33,7 +34,7 @@ protected:
   std::string said(const std::string &name, const std::string &text,
                    const std::vector<std::string> &overrides = {}) const {
     try {
-      read_scene(put(name, text), overrides, AppKind::pack);
+      read_scene(put(name, text), overrides, program("pack"));
     } catch (const InputError &error) {
       const std::string what = error.what(), folder = folder_.string() + "/";
       return what.rfind(folder, 0) == 0 ? what.substr(folder.size()) : what;
@@ -160,9 +161,10 @@ TEST_F(SceneCharacters, json_and_the_command_line_name_them_too) {
 }
 
 TEST_F(SceneCharacters, both_signs_for_micro_are_one) {
-  const Scene one =
-                  read_scene(put("a.prm", changed(prm(), "2 mm", "2000 " + micro + "m")), {}, AppKind::pack),
-              other = read_scene(put("b.prm", changed(prm(), "2 mm", "2000 " + mu + "m")), {}, AppKind::pack);
+  const Scene one = read_scene(put("a.prm", changed(prm(), "2 mm", "2000 " + micro + "m")), {},
+                               program("pack")),
+              other =
+                  read_scene(put("b.prm", changed(prm(), "2 mm", "2000 " + mu + "m")), {}, program("pack"));
   EXPECT_EQ(one.specimen.sphere_radius, other.specimen.sphere_radius);
   EXPECT_DOUBLE_EQ(other.specimen.sphere_radius, 0.002);
 }

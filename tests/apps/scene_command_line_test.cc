@@ -7,16 +7,24 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/programs.h"
 #include "apps/scene/command_line.h"
 
 namespace platen::apps {
 namespace {
 
 const std::string good = std::string(PLATEN_TEST_DATA) + "/fragment/good.prm";
-const AppDescription compress{AppKind::compress, "platen-compress", "Crushes."};
-const AppDescription study{AppKind::study, "platen-study", "Sweeps.", {"friction", "slenderness", "rate"}};
+apps::Program described(const std::string &name, const std::vector<std::string> &kinds) {
+  apps::Program program;
+  program.name = name;
+  program.kinds = kinds;
+  program.reads = {"Specimen"};
+  return program;
+}
+const apps::Program compress = described("platen-compress", {}),
+                    study = described("platen-study", {"friction", "slenderness", "rate"});
 
-CommandLine parse(std::vector<const char *> arguments, const AppDescription &app = compress) {
+CommandLine parse(std::vector<const char *> arguments, const apps::Program &app = compress) {
   arguments.insert(arguments.begin(), app.name.c_str());
   return read_command_line(static_cast<int>(arguments.size()), arguments.data(), app);
 }
@@ -84,7 +92,7 @@ TEST(CommandLine, a_program_can_read_the_version) {
 }
 
 TEST(CommandLine, packings_are_shared_by_programs_that_pack_for_many_runs) {
-  AppDescription sharing = compress;
+  apps::Program sharing = compress;
   sharing.shares_packings = true;
   EXPECT_EQ(parse({"a.prm", "--packings", "kept"}, sharing).packings, "kept");
   EXPECT_EQ(parse({"a.prm"}, sharing).packings, "");
@@ -93,7 +101,7 @@ TEST(CommandLine, packings_are_shared_by_programs_that_pack_for_many_runs) {
 }
 
 TEST(CommandLine, a_study_is_planned_run_by_number_and_collected) {
-  AppDescription planning = study;
+  apps::Program planning = study;
   planning.plans_runs = true;
   EXPECT_TRUE(parse({"rate", "a.prm", "--plan"}, planning).plan);
   EXPECT_TRUE(parse({"rate", "a.prm", "--collect"}, planning).collect);

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "apps/programs.h"
 #include "apps/scene/command_line.h"
 #include "apps/scene/declare.h"
 #include "apps/scene/expect.h"
@@ -15,7 +16,7 @@
 namespace platen::apps {
 namespace {
 
-const AppDescription compress{AppKind::compress, "platen-compress", ""};
+const apps::Program &compress = program("compress");
 
 namespace fs = std::filesystem;
 
@@ -85,7 +86,7 @@ protected:
   }
   Scene read(const std::string &name, const std::string &text,
              const std::vector<std::string> &overrides = {}) const {
-    return read_scene(put(name, text), overrides, AppKind::compress);
+    return read_scene(put(name, text), overrides, program("compress"));
   }
 
   fs::path folder_;
@@ -101,8 +102,6 @@ std::vector<std::string> values_of(const Scene &scene) {
     if (!entry.is_file) values.push_back(entry.path + " = " + entry.default_text);
   for (const Expectation &e : scene.expect)
     values.push_back(e.key + " " + shortest_text(e.low) + " " + shortest_text(e.high));
-  for (const double value : scene.pair_test.moduli)
-    values.push_back(shortest_text(value));
   return values;
 }
 
@@ -183,13 +182,13 @@ TEST_F(SceneFiles, a_written_scene_is_completed_with_the_defaults_of_what_it_lac
     EXPECT_NE(at, std::string::npos) << key;
     text.replace(at, text.find('\n', at) + 1 - at, line);
     put("results/scene.prm", text);
-    return completed_scene_text(file, folder);
+    return completed_scene_text(file, folder, compress);
   };
   EXPECT_EQ(completed(whole, "Safety", ""), whole);
   EXPECT_NE(completed(whole, "Safety", "  set Safety = 0.7\n"), whole);
   EXPECT_NE(completed(whole, "Sphere radius", ""), whole) << "a given value, not the default";
   EXPECT_EQ(completed("  set Safety = broken\n", "Safety", "what is no scene\n"), "what is no scene\n");
-  EXPECT_EQ(completed_scene_text(folder + "/none.prm", folder), "");
+  EXPECT_EQ(completed_scene_text(folder + "/none.prm", folder, compress), "");
 }
 
 TEST_F(SceneFiles, a_file_is_looked_for_beside_the_scene_that_names_it) {
@@ -235,21 +234,23 @@ TEST_F(SceneFiles, the_last_override_holds) {
 TEST_F(SceneFiles, printed_json_can_be_read_as_a_scene) {
   const Scene scene = read("a.prm", concrete);
   std::ostringstream text;
-  print_parameters(scene, compress, "", true, text);
+  print_parameters(scene, "", true, text);
   EXPECT_EQ(values_of(read("b.json", text.str())), values_of(scene));
 }
 
 TEST_F(SceneFiles, every_entry_tells_its_meaning) {
-  const Scene scene = default_scene();
-  std::ostringstream text;
-  write_prm(scene.parameters->entries(), true, text);
-  std::set<std::string> paths;
-  for (const Entry &entry : scene.parameters->entries()) {
-    EXPECT_GT(entry.documentation.size(), 10u) << entry.path;
-    EXPECT_EQ(entry.documentation.back(), '.') << entry.path;
-    EXPECT_TRUE(paths.insert(entry.path).second) << entry.path;
-    EXPECT_NE(text.str().find("set " + entry.path.substr(entry.path.rfind('/') + 1)), std::string::npos)
-        << entry.path;
+  for (const apps::Program &of : programs()) {
+    const Scene scene = default_scene(of);
+    std::ostringstream text;
+    write_prm(scene.parameters->entries(), true, text);
+    std::set<std::string> paths;
+    for (const Entry &entry : scene.parameters->entries()) {
+      EXPECT_GT(entry.documentation.size(), 10u) << entry.path;
+      EXPECT_EQ(entry.documentation.back(), '.') << entry.path;
+      EXPECT_TRUE(paths.insert(entry.path).second) << entry.path;
+      EXPECT_NE(text.str().find("set " + entry.path.substr(entry.path.rfind('/') + 1)), std::string::npos)
+          << entry.path;
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "apps/programs.h"
 #include "apps/scene/declare.h"
 #include "apps/scene/scene.h"
 
@@ -30,7 +31,7 @@ protected:
   void put(const std::string &name, const std::string &text) const { std::ofstream(folder_ / name) << text; }
   // Each line of the message, without the folder.
   std::vector<std::string> told(const std::string &name, const std::vector<std::string> &overrides = {},
-                                AppKind app = AppKind::compress) const {
+                                const apps::Program &app = program("compress")) const {
     std::vector<std::string> lines;
     try {
       read_scene((folder_ / name).string(), overrides, app);

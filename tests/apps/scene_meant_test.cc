@@ -2,8 +2,11 @@
 // and lists of lists too, with the unit that was perhaps meant.
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include <filesystem>
 
+#include "apps/programs.h"
 #include "apps/scene/declare.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/scene.h"
@@ -13,7 +16,8 @@ namespace {
 
 const std::string good = (std::filesystem::path(PLATEN_TEST_DATA) / "fragment" / "good.prm").string();
 
-std::string message_of(const std::vector<std::string> &overrides, AppKind app = AppKind::compress) {
+std::string message_of(const std::vector<std::string> &overrides,
+                       const apps::Program &app = program("compress")) {
   try {
     read_scene(good, overrides, app);
   } catch (const InputError &error) {
@@ -29,18 +33,23 @@ TEST(MeantUnits, a_bare_number_that_no_test_has_is_refused_with_the_unit_that_wa
   const struct {
     std::vector<std::string> entries;
     std::string says;
-    AppKind app = AppKind::compress;
+    std::string app = "compress";
   } cases[] = {
       {{"Loading/Confinement = particles", "Loading/Confining pressure = 5"},
        "Loading/Confining pressure = 5" + pascal + "\"5 MPa\"? If not, write \"5 Pa\"."},
       {{"Study/Confining pressure list = 0, 5, 10, 20"},
-       "holds an item, \"5\", " + item_pascal + "\"5 MPa\"? If not, write \"5 Pa\"."},
+       "holds an item, \"5\", " + item_pascal + "\"5 MPa\"? If not, write \"5 Pa\".",
+       "study"},
       {{"Study/Confining pressure list = 0, 5 MPa, 10"},
-       "holds an item, \"10\", " + item_pascal + "\"10 MPa\"?"},
-      {{"Study/Domain list = 72 x 22.5"}, "holds an item, \"72 x 22.5\", " + item_metre + "\"72 mm\"?"},
+       "holds an item, \"10\", " + item_pascal + "\"10 MPa\"?",
+       "study"},
+      {{"Study/Domain list = 72 x 22.5"},
+       "holds an item, \"72 x 22.5\", " + item_metre + "\"72 mm\"?",
+       "study"},
       {{"Study/Domain list = 72 mm x 22.5"},
-       "holds an item, \"72 mm x 22.5\", " + item_metre + "\"22.5 mm\"? If not, write \"22.5 m\"."},
-      {{"Study/Sphere radius list = 1 mm, 2"}, "holds an item, \"2\", " + item_metre + "\"2 mm\"?"},
+       "holds an item, \"72 mm x 22.5\", " + item_metre + "\"22.5 mm\"? If not, write \"22.5 m\".",
+       "study"},
+      {{"Study/Sphere radius list = 1 mm, 2"}, "holds an item, \"2\", " + item_metre + "\"2 mm\"?", "study"},
       {{"Bond/Modulus = 40"},
        "Bond/Modulus = 40" + pascal + "\"40 MPa\" or \"40 GPa\"? If not, write \"40 Pa\"."},
       {{"Bond/Modulus = 30000"}, "Bond/Modulus = 30000" + pascal + "\"30000 MPa\" or \"30000 GPa\"?"},
@@ -59,15 +68,16 @@ TEST(MeantUnits, a_bare_number_that_no_test_has_is_refused_with_the_unit_that_wa
       {{"Expect/strength_pa = ... 50"}, "strength_pa = ... 50" + pascal + "\"50 MPa\"?"},
       {{"Expect/youngs_modulus_gauge_pa = 20 ... 30"}, pascal + "\"20 MPa\" or \"20 GPa\"?"},
       {{"Calibrate/Young modulus = 25"},
-       "Calibrate/Young modulus = 25" + pascal + "\"25 MPa\" or \"25 GPa\"?"},
+       "Calibrate/Young modulus = 25" + pascal + "\"25 MPa\" or \"25 GPa\"?",
+       "calibrate"},
       {{"Calibrate/Target 1/Kind = strength", "Calibrate/Target 1/Value = 40"},
        "Calibrate/Target 1/Value = 40" + pascal + "\"40 MPa\"?",
-       AppKind::calibrate},
+       "calibrate"},
       {{"Calibrate/Target 1/Kind = young modulus", "Calibrate/Target 1/Value = 40"},
        pascal + "\"40 MPa\" or \"40 GPa\"?",
-       AppKind::calibrate}};
+       "calibrate"}};
   for (const auto &one : cases) {
-    const std::string message = message_of(one.entries, one.app);
+    const std::string message = message_of(one.entries, program(one.app));
     EXPECT_NE(message.find(one.says), std::string::npos) << message << "\n not: " << one.says;
   }
 }
@@ -75,15 +85,22 @@ TEST(MeantUnits, a_bare_number_that_no_test_has_is_refused_with_the_unit_that_wa
 // Whatever is declared in one of these units refuses such a number; a new entry does so by itself.
 TEST(MeantUnits, every_entry_of_the_unit_refuses_it) {
   int stresses = 0, lengths = 0;
-  const Scene scene = default_scene();
-  for (const Entry &entry : scene.parameters->entries()) {
+  std::map<std::string, const apps::Program *> read_by; // of each entry one that has it
+  for (const apps::Program &of : programs()) {
+    const Scene scene = default_scene(of);
+    for (const Entry &entry : scene.parameters->entries())
+      read_by.emplace(entry.path, &of);
+  }
+  for (const auto &[path, of] : read_by) {
+    const Scene scene = default_scene(*of);
+    const Entry &entry = scene.parameters->at(path);
     const bool stress = entry.unit == "Pa", length = entry.unit == "m";
     if ((!stress && !length) || entry.path == "Platens/Mesh unit") continue;
     const bool range = entry.path.rfind("Expect/", 0) == 0, domain = entry.path == "Study/Domain list";
     const std::string number = stress ? "7" : "12", value = range    ? "... " + number
                                                             : domain ? "12 x 12"
                                                                      : number;
-    const std::string message = message_of({entry.path + " = " + value});
+    const std::string message = message_of({entry.path + " = " + value}, *of);
     EXPECT_NE(message.find("is a bare number, which is in " + entry.unit), std::string::npos)
         << entry.path << ": " << message;
     ++(stress ? stresses : lengths);

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "apps/bonds/pair_section.h"
+#include "apps/programs.h"
 #include "apps/scene/declare.h"
 #include "apps/scene/scene_files.h"
 
@@ -74,10 +76,10 @@ TEST(ParameterHandler, both_readers_see_the_same_values) {
 }
 
 TEST(ParameterHandler, reads_what_we_write) {
-  const std::string text = scene_text(default_scene(), ".");
+  const std::string text = scene_text(default_scene(program("compress")), ".");
   EXPECT_EQ(values_by_deal_ii(text), values_by_us(text));
   std::ostringstream documented;
-  write_prm(default_scene().parameters->entries(), true, documented);
+  write_prm(default_scene(program("compress")).parameters->entries(), true, documented);
   EXPECT_EQ(values_by_deal_ii(documented.str()), values_by_us(text));
 }
 
@@ -92,9 +94,9 @@ TEST(ParameterHandler, writes_json_that_we_read) {
     handler.print_parameters(text, style);
     Scene scene;
     Parameters parameters;
-    declare_scene(parameters, scene);
+    program("bonds").declare(parameters, scene);
     read_json_text(text.str(), "text.json", parameters);
-    EXPECT_EQ(scene.pair_test.moduli, (std::vector<double>{1e9, 2e9})) << text.str();
+    EXPECT_EQ(scene.own<PairTest>().moduli, (std::vector<double>{1e9, 2e9})) << text.str();
   }
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "apps/programs.h"
 #include "apps/run/problem_setup.h"
 #include "coupling/platens_of_test.h"
 
@@ -15,7 +16,7 @@ namespace {
 const std::string good = (std::filesystem::path(PLATEN_TEST_DATA) / "fragment" / "good.prm").string();
 
 Scene scene_with(const std::vector<std::string> &overrides) {
-  return read_scene(good, overrides, AppKind::compress);
+  return read_scene(good, overrides, program("compress"));
 }
 
 // Every number and flag by its name; words, stiffnesses and gaps as they compare.

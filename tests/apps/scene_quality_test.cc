@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "apps/programs.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/scene.h"
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 
 const std::string good = (fs::path(PLATEN_TEST_DATA) / "fragment" / "good.prm").string();
 
-Scene scene_with(std::vector<std::string> entries, AppKind app = AppKind::compress) {
+Scene scene_with(std::vector<std::string> entries, const apps::Program &app = program("compress")) {
   return read_scene(good, entries, app);
 }
 
@@ -47,7 +48,7 @@ TEST(Quality, without_a_word_nothing_is_set_and_the_rate_has_to_be_given) {
   EXPECT_THROW(scene_with({"Loading/Axial rate ="}), InputError);
   // Discs are split at a speed of their own.
   EXPECT_THROW(scene_with({"Loading/Axial rate =", "Scene/Quality = fast", "Specimen/Shape = disc"},
-                          AppKind::brazilian),
+                          program("brazilian")),
                InputError);
 }
 
@@ -55,7 +56,7 @@ TEST(Quality, a_scene_written_with_it_reads_back_to_the_same) {
   const Scene scene = scene_with({"Scene/Quality = reference", "Loading/Axial rate ="});
   const fs::path copy = fs::temp_directory_path() / "platen_quality_copy.prm";
   std::ofstream(copy) << scene_text(scene, copy.parent_path());
-  const Scene again = read_scene(copy.string(), {}, AppKind::compress);
+  const Scene again = read_scene(copy.string(), {}, program("compress"));
   fs::remove(copy);
   EXPECT_EQ(again.time_step.safety, scene.time_step.safety);
   EXPECT_EQ(again.loading.wave_transits, scene.loading.wave_transits);

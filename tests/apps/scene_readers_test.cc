@@ -6,16 +6,15 @@
 
 #include "apps/io_folder.h"
 #include "apps/program.h"
+#include "apps/programs.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
-#include "apps/scene/readers.h"
 #include "apps/scene/scene.h"
 
 namespace platen::apps::testing {
 namespace {
 
 struct App {
-  AppKind kind;
   std::string program, scene;
   std::vector<std::string> entries; // that make it small
   std::size_t fewest;               // of entries that can be changed
@@ -23,7 +22,7 @@ struct App {
 
 bool accepted(const App &app, const std::vector<std::string> &entries) {
   try {
-    read_scene(app.scene, entries, app.kind);
+    read_scene(app.scene, entries, program(app.program));
     return true;
   } catch (const InputError &) {
     return false;
@@ -42,10 +41,10 @@ std::vector<std::string> other_values(const Entry &entry) {
 // One assignment for each entry that the program does not read and that it takes another value of, all
 // together.
 std::vector<std::string> what_it_does_not_read(const App &app) {
-  const Scene scene = read_scene(app.scene, app.entries, app.kind);
+  const Scene scene = read_scene(app.scene, app.entries, program(app.program));
   std::vector<std::string> all = app.entries;
   for (const Entry &entry : scene.parameters->entries()) {
-    if (reads(app.kind, entry.path) || (entry.alike == Entry::Alike::further)) continue;
+    if (program(app.program).reads_entry(entry.path) || (entry.alike == Entry::Alike::further)) continue;
     for (const std::string &value : other_values(entry)) {
       if (value == entry.text) continue;
       all.push_back(entry.path + " = " + value);
@@ -90,28 +89,16 @@ protected:
 
 TEST_F(Readers, a_program_reads_nothing_that_it_does_not_print) {
   const std::string scenes = PLATEN_SCENES;
-  const std::vector<App> apps{{AppKind::pack, "platen-pack", test_scene("crushed.prm"), {}, 150},
-                              {AppKind::bonds, "platen-bonds", scenes + "/two_particles.prm", {}, 150},
-                              {AppKind::bar,
-                               "platen-bar",
-                               test_scene("bar.prm"),
-                               {"Bar test/Load = tension", "Bar test/Periods = 4"},
-                               100},
-                              {AppKind::compress,
-                               "platen-compress",
-                               test_scene("crushed.prm"),
-                               {"Loading/Target strain = 0.002"},
-                               60},
-                              {AppKind::brazilian,
-                               "platen-brazilian",
-                               test_scene("split.prm"),
-                               {"Loading/Target strain = 0.001"},
-                               60},
-                              {AppKind::calibrate,
-                               "platen-calibrate",
-                               test_scene("crushed.prm"),
-                               {"Calibrate/Mode = abacus", "Calibrate/Seeds = 1"},
-                               40}};
+  const std::vector<App> apps{
+      {"platen-pack", test_scene("crushed.prm"), {}, 150},
+      {"platen-bonds", scenes + "/two_particles.prm", {}, 150},
+      {"platen-bar", test_scene("bar.prm"), {"Bar test/Load = tension", "Bar test/Periods = 4"}, 100},
+      {"platen-compress", test_scene("crushed.prm"), {"Loading/Target strain = 0.002"}, 60},
+      {"platen-brazilian", test_scene("split.prm"), {"Loading/Target strain = 0.001"}, 60},
+      {"platen-calibrate",
+       test_scene("crushed.prm"),
+       {"Calibrate/Mode = abacus", "Calibrate/Seeds = 1"},
+       40}};
   for (const App &app : apps) {
     const std::vector<std::string> changed = what_it_does_not_read(app);
     EXPECT_GE(changed.size(), app.fewest) << app.program;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "apps/programs.h"
 #include "apps/run/needs.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/scene.h"
@@ -43,7 +44,7 @@ protected:
                    (rate.empty() ? "" : "subsection Loading\n  set Axial rate = " + rate + "\nend\n"));
   }
   static std::string said(const std::string &path, const std::vector<std::string> &overrides = {},
-                          AppKind app = AppKind::compress) {
+                          const apps::Program &app = program("compress")) {
     try {
       read_scene(path, overrides, app);
     } catch (const InputError &error) {
@@ -66,24 +67,24 @@ protected:
 };
 
 TEST_F(Replaced, a_specimen_from_a_file_gives_the_lengths_that_the_scene_leaves_out) {
-  const Scene round = read_scene(from_file("cylinder.csv"), {}, AppKind::compress);
+  const Scene round = read_scene(from_file("cylinder.csv"), {}, program("compress"));
   EXPECT_DOUBLE_EQ(round.specimen.sphere_radius, 0.002);
   EXPECT_EQ(round.specimen.radius, 0.01);
   EXPECT_EQ(round.specimen.height, 0.04);
   EXPECT_DOUBLE_EQ(round.platens.thickness, 0.004); // a tenth of the height
   EXPECT_TRUE(std::isnan(round.specimen.width_x));
-  const Scene box = read_scene(from_file("box.csv"), {}, AppKind::compress);
+  const Scene box = read_scene(from_file("box.csv"), {}, program("compress"));
   EXPECT_EQ(box.specimen.shape, SpecimenShape::box);
   EXPECT_EQ(box.specimen.width_x, 0.01);
   EXPECT_EQ(box.specimen.width_y, 0.02);
   EXPECT_EQ(box.specimen.height, 0.03);
   EXPECT_TRUE(std::isnan(box.specimen.radius));
-  const Scene bare = read_scene(from_file("bare.csv"), {}, AppKind::compress);
+  const Scene bare = read_scene(from_file("bare.csv"), {}, program("compress"));
   EXPECT_DOUBLE_EQ(bare.specimen.sphere_radius, 0.001);
   EXPECT_TRUE(std::isnan(bare.specimen.height));
   // What the scene says stays, to the bit, and what is written back leaves out what was left out.
   EXPECT_DOUBLE_EQ(
-      read_scene(from_file("cylinder.csv"), {"Specimen/Sphere radius = 2.1 mm"}, AppKind::compress)
+      read_scene(from_file("cylinder.csv"), {"Specimen/Sphere radius = 2.1 mm"}, program("compress"))
           .specimen.sphere_radius,
       0.0021);
   EXPECT_NE(scene_text(round, folder_).find("set Sphere radius       = \n"), std::string::npos)
@@ -93,7 +94,7 @@ TEST_F(Replaced, a_specimen_from_a_file_gives_the_lengths_that_the_scene_leaves_
 // A scene that packs 1 mm spheres is pressed with a file of larger ones: the spheres are what they are.
 TEST_F(Replaced, spheres_of_another_size_than_the_scene_says_replace_it) {
   const auto with = [&](const std::string &radius) {
-    return read_scene(from_file("cylinder.csv"), {"Specimen/Sphere radius = " + radius}, AppKind::compress);
+    return read_scene(from_file("cylinder.csv"), {"Specimen/Sphere radius = " + radius}, program("compress"));
   };
   EXPECT_DOUBLE_EQ(with("3 mm").specimen.sphere_radius, 0.002);
   ASSERT_EQ(with("3 mm").notes.size(), 1u);
@@ -111,7 +112,7 @@ TEST_F(Replaced, a_sleeve_around_a_file_needs_no_radius) {
   const Scene scene = read_scene(
       from_file("cylinder.csv"),
       {"Loading/Confinement = sleeve", "Loading/Confining pressure = 1 MPa", "Sleeve/Thickness = 1 mm"},
-      AppKind::compress);
+      program("compress"));
   const CountedCosts costs = counted_costs(scene, dem::cylinder(0.01, 0.04));
   EXPECT_TRUE(std::isfinite(costs.bytes));
   EXPECT_NO_THROW(require_memory(scene, dem::cylinder(0.01, 0.04)));
@@ -145,7 +146,7 @@ TEST_F(Replaced, a_bad_file_is_told_with_its_line) {
 }
 
 TEST_F(Replaced, lists_of_a_study_stand_for_the_entries_that_they_vary) {
-  const AppKind study = AppKind::study;
+  const apps::Program &study = program("study");
   EXPECT_EQ(said(packed(), {}, study), "");
   for (const char *key : {"Axial rate", "Sphere radius", "Height"})
     EXPECT_NE(said(packed(key), {}, study).find(std::string(key) + " is not set"), std::string::npos) << key;
@@ -182,7 +183,7 @@ TEST_F(Replaced, a_series_of_pressures_begins_with_none_and_needs_no_other_press
   const std::vector<std::string> entries{"Study/Surface list = 0, 0.3",
                                          "Study/Confining pressure list = 0, 5 MPa",
                                          "Loading/Confinement = particles"};
-  const Scene scene = read_scene(packed(), entries, AppKind::study);
+  const Scene scene = read_scene(packed(), entries, program("study"));
   const StudyPlan plan = plan_study(StudyKind::friction, scene, entries);
   ASSERT_EQ(plan.cases.size(), 4u);
   EXPECT_EQ(plan.cases[0].name, "friction_0_pressure_0_MPa");
@@ -198,7 +199,7 @@ TEST_F(Replaced, a_pressure_of_nothing_is_a_test_without_a_cell) {
   for (const char *kind : {"particles", "sleeve"}) {
     const std::vector<std::string> with{std::string("Loading/Confinement = ") + kind},
         none{with.front(), "Loading/Confining pressure = 0"};
-    const Scene scene = read_scene(packed(), none, AppKind::compress);
+    const Scene scene = read_scene(packed(), none, program("compress"));
     EXPECT_EQ(scene.loading.confinement, ConfinementKind::none);
     ASSERT_EQ(scene.notes.size(), 1u);
     EXPECT_NE(scene.notes[0].find("has no effect: Loading/Confining pressure = 0."), std::string::npos);
@@ -211,7 +212,7 @@ TEST_F(Replaced, a_pressure_of_nothing_is_a_test_without_a_cell) {
 }
 
 TEST_F(Replaced, targets_with_speeds_of_their_own_need_no_other) {
-  const AppKind calibrate = AppKind::calibrate;
+  const apps::Program &calibrate = program("calibrate");
   const std::vector<std::string> target{"Calibrate/Target 1/Kind = strength",
                                         "Calibrate/Target 1/Value = 40 MPa"};
   std::vector<std::string> own = target;
@@ -227,11 +228,11 @@ TEST_F(Replaced, targets_with_speeds_of_their_own_need_no_other) {
 
 TEST_F(Replaced, a_table_of_moduli_needs_no_other_modulus) {
   const std::vector<std::string> list{"Calibrate/Mode = abacus", "Calibrate/Modulus list = 20 GPa, 40 GPa"};
-  EXPECT_EQ(said(packed("Modulus"), list, AppKind::calibrate), "");
-  EXPECT_EQ(read_scene(packed("Modulus"), list, AppKind::calibrate).model.bond_layout.modulus, 20e9);
-  EXPECT_NE(said(packed("Modulus"), {list.back()}, AppKind::calibrate).find("Bond/Modulus is not set"),
+  EXPECT_EQ(said(packed("Modulus"), list, program("calibrate")), "");
+  EXPECT_EQ(read_scene(packed("Modulus"), list, program("calibrate")).model.bond_layout.modulus, 20e9);
+  EXPECT_NE(said(packed("Modulus"), {list.back()}, program("calibrate")).find("Bond/Modulus is not set"),
             std::string::npos);
-  EXPECT_NE(said(packed("Modulus"), list, AppKind::compress).find("Bond/Modulus is not set"),
+  EXPECT_NE(said(packed("Modulus"), list, program("compress")).find("Bond/Modulus is not set"),
             std::string::npos);
 }
 

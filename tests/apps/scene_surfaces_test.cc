@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "apps/io_folder.h"
+#include "apps/programs.h"
 #include "apps/scene/command_line.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/scene.h"
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 const std::string good = (fs::path(PLATEN_TEST_DATA) / "fragment" / "good.prm").string();
 
 Scene scene_with(const std::vector<std::string> &entries) {
-  return read_scene(good, entries, AppKind::compress);
+  return read_scene(good, entries, program("compress"));
 }
 
 // Besides the entries that the word stands for.
@@ -41,14 +42,14 @@ TEST(Surfaces, every_word_sets_its_entries_says_its_source_and_can_be_written_ba
     for (const auto &[key, text] : one.entries)
       EXPECT_EQ(scene.parameters->at("Platens/" + key).text, text) << one.word << ", " << key;
     std::ostringstream told;
-    print_parameters(scene, {AppKind::compress, "platen-compress", ""}, "", true, told);
+    print_parameters(scene, "", true, told);
     EXPECT_NE(told.str().find(one.source), std::string::npos) << one.word;
     EXPECT_NE(text_of(scene.platens).find(one.word), std::string::npos);
 
     const fs::path written = fs::temp_directory_path() / "platen_surface_written.prm";
     const std::string text = scene_text(scene, written.parent_path());
     std::ofstream(written) << text;
-    EXPECT_EQ(scene_text(read_scene(written.string(), {}, AppKind::compress), written.parent_path()), text)
+    EXPECT_EQ(scene_text(read_scene(written.string(), {}, program("compress")), written.parent_path()), text)
         << one.word;
     fs::remove(written);
   }
@@ -103,7 +104,7 @@ TEST_F(SurfaceFiles, a_word_wins_over_figures_of_files_that_are_included) {
   const auto with = [&](const std::string &word, const std::vector<std::string> &entries) {
     const fs::path outer = folder_ / "outer.prm";
     testing::put(outer, "include inner.prm\nsubsection Platens\n" + word + "end\n");
-    return read_scene(outer.string(), entries, AppKind::compress).platens;
+    return read_scene(outer.string(), entries, program("compress")).platens;
   };
   EXPECT_EQ(with("  set Surface = grease\n", {}).top.friction_static, 0.0048);
   EXPECT_EQ(with("  set Surface = grease\n  set Friction static = 0.01\n", {}).top.friction_static, 0.01);

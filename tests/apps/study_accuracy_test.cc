@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "apps/programs.h"
 #include "apps/scene/errors.h"
 #include "apps/study/accuracy.h"
 #include "apps/study/cases.h"
@@ -13,7 +14,7 @@ namespace {
 
 StudyPlan plan_with(std::vector<std::string> entries) {
   entries.emplace_back("Loading/Stop at residual = 0.5");
-  const Scene scene = read_scene(test_scene("study.prm"), entries, AppKind::study);
+  const Scene scene = read_scene(test_scene("study.prm"), entries, program("study"));
   return plan_study(StudyKind::accuracy, scene, entries);
 }
 
@@ -85,7 +86,7 @@ TEST(AccuracyPlan, words_of_quality_are_cases_where_the_scene_leaves_their_entri
   EXPECT_EQ(names_of(plan),
             (std::vector<std::string>{"base", "wave_crossings_240", "quality_fast", "quality_reference"}));
   const Scene fast =
-      read_scene(test_scene("study.prm"), overrides_of(plan.cases[2], 3, open), AppKind::compress);
+      read_scene(test_scene("study.prm"), overrides_of(plan.cases[2], 3, open), program("compress"));
   EXPECT_EQ(fast.time_step.safety, 0.95);
   EXPECT_EQ(fast.loading.wave_transits, 30);
 }

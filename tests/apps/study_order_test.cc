@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "apps/programs.h"
 #include "apps/scene/parameters.h"
 #include "apps/study/runs.h"
 
@@ -42,7 +43,7 @@ TEST(StudyOrder, is_that_of_the_cases_one_at_a_time) {
 
 TEST(StudyOrder, counts_seconds_by_spheres_and_way) {
   const std::string file = std::string(PLATEN_SCENES) + "/study_friction_quick.prm";
-  const Scene scene = read_scene(file, {}, AppKind::study);
+  const Scene scene = read_scene(file, {}, program("study"));
   const StudyPlan plan = plan_study(StudyKind::friction, scene, {});
   ASSERT_EQ(plan.cases.size(), 6u);
   for (std::size_t k = 0; k < 3; ++k) {

@@ -9,6 +9,7 @@
 #include <random>
 #include <thread>
 
+#include "apps/programs.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
 #include "apps/study/comparisons.h"
@@ -19,7 +20,7 @@ namespace platen::apps::testing {
 namespace {
 
 Scene scene_with(const std::vector<std::string> &entries) {
-  return read_scene(test_scene("study.prm"), entries, AppKind::study);
+  return read_scene(test_scene("study.prm"), entries, program("study"));
 }
 
 StudyPlan plan_with(const std::vector<std::string> &entries, StudyKind kind = StudyKind::friction) {
@@ -29,7 +30,7 @@ StudyPlan plan_with(const std::vector<std::string> &entries, StudyKind kind = St
 }
 
 Scene led_to(const StudyPlan &plan, std::size_t k, const std::vector<std::string> &entries) {
-  return read_scene(test_scene("study.prm"), overrides_of(plan.cases[k], 1, entries), AppKind::compress);
+  return read_scene(test_scene("study.prm"), overrides_of(plan.cases[k], 1, entries), program("compress"));
 }
 
 std::vector<std::string> names_of(const StudyPlan &plan) {

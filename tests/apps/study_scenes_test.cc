@@ -6,9 +6,10 @@
 #include <fstream>
 #include <regex>
 
-#include "apps/scene/apps.h"
+#include "apps/programs.h"
 #include "apps/scene/errors.h"
 #include "apps/study/cases.h"
+#include "apps/study/study_section.h"
 
 namespace platen::apps {
 namespace {
@@ -31,7 +32,7 @@ TEST(StudyScenes, lead_to_cases_that_can_be_run) {
     SCOPED_TRACE(file.path());
     ++scenes;
     try {
-      const Scene scene = read_scene(file.path().string(), {}, AppKind::study);
+      const Scene scene = read_scene(file.path().string(), {}, program("study"));
       EXPECT_GT(plan_study(study_kind(kind_in(file.path())), scene, {}).cases.size(), 1u);
     } catch (const InputError &error) {
       ADD_FAILURE() << error.what();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "apps/programs.h"
 #include "apps/scene/errors.h"
 #include "apps/study/cases.h"
 #include "apps/study/target_figures.h"
@@ -18,12 +19,13 @@ const std::vector<std::string> base{"Loading/Stop at residual = 0.5", "Study/Wav
 
 Scene scene_with(std::vector<std::string> entries) {
   entries.insert(entries.begin(), base.begin(), base.end());
-  return read_scene(test_scene("study.prm"), entries, AppKind::study);
+  return read_scene(test_scene("study.prm"), entries, program("study"));
 }
 
 StudyPlan plan_with(std::vector<std::string> entries) {
   entries.insert(entries.begin(), base.begin(), base.end());
-  return plan_study(StudyKind::target, read_scene(test_scene("study.prm"), entries, AppKind::study), entries);
+  return plan_study(StudyKind::target, read_scene(test_scene("study.prm"), entries, program("study")),
+                    entries);
 }
 
 TEST(TargetCases, are_the_scene_at_each_speed_and_what_a_gain_is_over) {
@@ -41,14 +43,14 @@ TEST(TargetCases, are_the_scene_at_each_speed_and_what_a_gain_is_over) {
                                              "coarser_over_wave_crossings_2"}));
   EXPECT_EQ(plan.seeds, (std::vector<unsigned long>{3, 4, 5, 6, 7}));
   const Scene over =
-      read_scene(test_scene("study.prm"), overrides_of(plan.cases[4], 9, base), AppKind::compress);
+      read_scene(test_scene("study.prm"), overrides_of(plan.cases[4], 9, base), program("compress"));
   EXPECT_EQ(over.loading.wave_transits, 4);
   EXPECT_TRUE(std::isnan(over.loading.rate));
   EXPECT_EQ(over.platens.both.friction_static, 0);
   EXPECT_EQ(over.general.seed, 9u);
-  EXPECT_TRUE(over.study.target.over.empty()); // runs do not know what they are for
+  EXPECT_FALSE(over.section.has_value()); // runs do not know what they are for
   const Scene coarser =
-      read_scene(test_scene("study.prm"), overrides_of(plan.cases[8], 3, base), AppKind::compress);
+      read_scene(test_scene("study.prm"), overrides_of(plan.cases[8], 3, base), program("compress"));
   EXPECT_DOUBLE_EQ(coarser.specimen.sphere_radius, 2.5e-3);
 }
 
@@ -106,7 +108,7 @@ TEST_F(OverScene, halves_its_own_step_and_coarsens_its_own_spheres) {
   const auto run_by = [&](std::size_t k) {
     const StudyCase &one = plan.cases[k];
     return read_scene(one.scene.empty() ? test_scene("study.prm") : one.scene, overrides_of(one, 3, base),
-                      AppKind::compress);
+                      program("compress"));
   };
   const TargetCases cases{3, 2, true, true};
   EXPECT_EQ(run_by(cases.at(0, 2)).specimen.sphere_radius, 2e-3);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <thread>
 
+#include "apps/programs.h"
 #include "apps/scene/errors.h"
 #include "apps/study/cases.h"
 #include "apps/study/tables.h"
@@ -388,7 +389,7 @@ TEST_F(Study, a_dry_run_tells_of_each_case_and_writes_nothing) {
 }
 
 Scene scene_with(const std::vector<std::string> &entries) {
-  return read_scene(test_scene("study.prm"), entries, AppKind::study);
+  return read_scene(test_scene("study.prm"), entries, program("study"));
 }
 
 TEST(StudyPlan, where_no_size_is_given_they_are_in_proportion_to_the_specimen) {
@@ -417,7 +418,7 @@ TEST(StudyPlan, sizes_of_the_thesis_are_six_cases) {
   EXPECT_DOUBLE_EQ(plan.cases[4].labels[1], 0.072);
   EXPECT_DOUBLE_EQ(plan.cases[4].labels[2], 0.0225);
   const Scene last =
-      read_scene(test_scene("study.prm"), overrides_of(plan.cases[5], 9, entries), AppKind::compress);
+      read_scene(test_scene("study.prm"), overrides_of(plan.cases[5], 9, entries), program("compress"));
   EXPECT_DOUBLE_EQ(last.specimen.height, 0.065);
   EXPECT_DOUBLE_EQ(last.specimen.radius, 0.02);
   EXPECT_DOUBLE_EQ(last.specimen.sphere_radius, 0.001);

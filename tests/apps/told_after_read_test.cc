@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/programs.h"
 #include "apps/run/history.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/specimen_setup.h"
@@ -89,7 +90,7 @@ TEST_P(ToldAfterRead, is_what_was_told_before) {
   std::vector<std::string> overrides = of.overrides;
   if (of.scene != "bent.prm") overrides.push_back("Specimen/Sphere radius = 1.5 mm");
   const Scene scene =
-      read_scene(file.string(), overrides, of.name == "disc" ? AppKind::brazilian : AppKind::compress);
+      read_scene(file.string(), overrides, of.name == "disc" ? program("brazilian") : program("compress"));
   dem::Specimen specimen = make_bonded_specimen(scene);
   if (of.name == "disc") specimen = dem::laid_down(specimen);
   const coupling::PlatenTestSettings settings = problem_settings(scene);
@@ -134,7 +135,7 @@ TEST(ToldAfterReadOfOlderStates, is_no_number_until_the_next_step) {
   const std::filesystem::path file = std::filesystem::path(PLATEN_TEST_SCENES) / "crushed.prm";
   const Scene scene =
       read_scene(file.string(), {"Specimen/Sphere radius = 1.5 mm", "Loading/Test = uniaxial strain"},
-                 AppKind::compress);
+                 program("compress"));
   const dem::Specimen specimen = make_bonded_specimen(scene);
   coupling::PlatenTest run(specimen, problem_settings(scene)), read(specimen, problem_settings(scene));
   run.advance(300);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <fstream>
 
+#include "apps/programs.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/scene.h"
 #include "apps/scene/scene_files.h"
@@ -20,15 +21,13 @@ void write_prm(const std::vector<Entry> &, bool, std::ostream &) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
   if (size == 0) return 0;
-  constexpr AppKind apps[] = {AppKind::pack,      AppKind::bonds,     AppKind::bar,  AppKind::compress,
-                              AppKind::brazilian, AppKind::calibrate, AppKind::study};
   // The reader goes by the ending of the name.
   const std::string path =
       "/dev/shm/platen_fuzz_" + std::to_string(getpid()) + (size > 1 && data[1] == '{' ? ".json" : ".prm");
   std::ofstream(path, std::ios::binary)
       .write(reinterpret_cast<const char *>(data) + 1, static_cast<std::streamsize>(size) - 1);
   try {
-    read_scene(path, {}, apps[data[0] % std::size(apps)]);
+    read_scene(path, {}, programs()[data[0] % programs().size()]);
   } catch (const InputError &) {
   }
   unlink(path.c_str());

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene/scene_loading.h"
+#include "apps/scene/program.h"
+#include "apps/scene/scene.h"
 #include "base/describe.h"
 
 namespace platen::apps {
@@ -14,11 +15,6 @@ namespace platen::apps {
 enum class CalibrateMode { bounds, abacus, search };
 inline const Words<CalibrateMode> calibrate_modes{
     {"bounds", CalibrateMode::bounds}, {"abacus", CalibrateMode::abacus}, {"search", CalibrateMode::search}};
-
-struct StudySurface { // a word, or a coefficient of friction
-  SurfaceKind kind = SurfaceKind::custom;
-  double friction = not_given; // static and dynamic; not given: what the word says
-};
 
 // What a calibration may change, in the order of its tables.
 enum class Knob {
@@ -140,5 +136,14 @@ struct Calibrate { // platen-calibrate
            std::any_of(targets.begin(), targets.end(), [](const Target &t) { return !t.is_elastic(); });
   }
 };
+
+inline const Calibrate &calibrate_of(const Scene &scene) {
+  return scene.own<Calibrate>();
+}
+
+// What is asked for: whether it can be measured, and whether it is enough.
+void check_calibrate(const SceneCheck &check);
+
+Program calibrate_program();
 
 } // namespace platen::apps

@@ -1,6 +1,12 @@
-// Sections that one app each reads.
+#include "apps/study/study_section.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/scene/checks.h"
 #include "apps/scene/members.h"
-#include "apps/scene/sections.h"
+#include "apps/scene/scene_check.h"
+#include "apps/scene/units.h"
 
 namespace platen::apps {
 namespace {
@@ -68,53 +74,8 @@ void declare_target(Parameters &parameters, StudyTarget &target) {
       "spheres means; 0: the law of bench/results/sizes.md tells it.");
 }
 
-} // namespace
-
-void declare_pair_test(Parameters &parameters, PairTest &pair) {
-  Section section(parameters, "Pair test");
-  section.integer("Particles", pair.particles, 2, 3, "Two in a row, or three as a pyramid.");
-  section.entry("Path", pair.path, pair_paths, "How the upper particle is moved against the lower ones.");
-  section.entry("Plate", pair.plate, pair_plates, "Three particles: what the lower two stand on.");
-  section.entry("Base bond", pair.base_bond, "Three particles: a bond between the lower two.");
-  section.entry("Force", pair.force, "N", above(0), "Largest force.");
-  section.entry("Displacement", pair.displacement, "m", above(0), "Largest displacement.");
-  section.entry("Turns", pair.turns, "m", any_number(),
-                "Displacements at which the path turns, opening positive, the last one its end; instead of "
-                "Displacement (elasto damage plastic).");
-  section.entry("Pressure", pair.pressure, "Pa", at_least(0),
-                "Presses the bond while it is sheared (elasto damage plastic).");
-  section.number("Slip ratio", pair.slip_ratio, above(0),
-                 "Slip over opening of the combined path (elasto damage plastic).");
-  section.entry("Modulus list", pair.moduli, "Pa", above(0), "Bond moduli to run; empty: Bond/Modulus.");
-  section.entry("Stiffness ratio list", pair.stiffness_ratios, "1",
-                range_of<dem::ParallelBond::Parameters>("stiffness_ratio"),
-                "Stiffness ratios to run; empty: Bond/Stiffness ratio.");
-  section.integer("Steps", pair.steps, 1, 1e9, "Steps of loading.");
-}
-
-void declare_bar_test(Parameters &parameters, BarTest &bar) {
-  Section section(parameters, "Bar test");
-  section.entry("Load", bar.load, bar_loads,
-                "What is done to a bar clamped at its lower end; none: its moduli alone.");
-  section.entry<BarMethod>(
-      "Method", bar.method,
-      {{"both", BarMethod::both}, {"static", BarMethod::at_rest}, {"dynamic", BarMethod::dynamic}},
-      "Static: the bar at rest under the load. Dynamic: it is let go from there and oscillates; an impact is "
-      "dynamic.");
-  section.entry<BarSide>("Bent along", bar.side, {{"x", BarSide::x}, {"y", BarSide::y}},
-                         "The way in which bending pushes the free end.");
-  section.number("Strain", bar.strain, above_up_to(0, 0.01),
-                 "Size of the load: strain at the skin of the clamped end by strength of materials; impact: "
-                 "speed of the struck end over that of the wave.");
-  section.number("End depth", bar.end_depth, between(0.05, 10),
-                 "Spheres whose surface is within this many mean radii of an end plane are clamped, loaded "
-                 "or struck.");
-  section.number("Periods", bar.periods, between(4, 1000), "Recorded of each oscillation.");
-  section.entry("Bulk moduli", bar.bulk_moduli,
-                "Measure the moduli of the interior too, under six strains of its skin.");
-}
-
-void declare_study(Parameters &parameters, Study &study) {
+void declare_study(Parameters &parameters, Scene &scene) {
+  Study &study = scene.own<Study>();
   Section section(parameters, "Study");
   section.integer("Seeds", study.seeds, 1, 1000, "Runs of each case: Scene/Seed and those after it.");
   section.value("Surface list", study.surfaces, "",
@@ -144,6 +105,96 @@ void declare_study(Parameters &parameters, Study &study) {
                 "Studies of rate and accuracy, in place of Loading/Axial rate.");
   declare_accuracy_lists(section, study);
   declare_target(parameters, study.target);
+}
+
+void complete(Parameters &parameters, Scene &scene) {
+  scene.own<Study>().target.over_scene = resolved_path(parameters.at("Study/Target/Over scene"));
+}
+
+// Whether a kind of study reads the list is found when its cases are read.
+bool gives(const Scene &scene, const Parameters &parameters, const std::string &path) {
+  const Study &study = study_of(scene);
+  const auto set = [](const Entry &entry) {
+    return entry.path.rfind("Study/Target/", 0) == 0 && entry.changed();
+  };
+  const bool targets = std::any_of(parameters.entries().begin(), parameters.entries().end(), set);
+  if (path == "Platens/Surface") return true;
+  if (path == "Loading/Axial rate")
+    return !study.axial_rates.empty() || !study.wave_transits.empty() || !study.qualities.empty() || targets;
+  if (path == "Loading/Confining pressure") return !study.pressures.empty();
+  if (path == "Specimen/Sphere radius") return !study.sphere_radii.empty() && study.domains.empty();
+  // Elastic platens as thick as a tenth of the height have to know it.
+  if (path == "Specimen/Height")
+    return !study.slendernesses.empty() && (!scene.platens.deformable || scene.platens.thickness > 0);
+  return false;
+}
+
+// What a list of the study stands for must be there to be varied, and vary: each value once.
+void check_study(const SceneCheck &check) {
+  const Study &study = study_of(check.scene());
+  const auto words_once = [&](const std::string &path, std::vector<std::string> words) {
+    std::sort(words.begin(), words.end());
+    const auto twice = std::adjacent_find(words.begin(), words.end());
+    if (twice != words.end()) check.refuse(path, "holds " + *twice + " twice. Allowed: each once.");
+  };
+  const auto once = [&](const std::string &path, const std::vector<double> &values) {
+    std::vector<std::string> words;
+    for (const double value : values)
+      words.push_back(shortest_text(value));
+    words_once(path, std::move(words));
+  };
+  std::vector<std::string> platens;
+  for (const StudySurface &one : study.surfaces)
+    platens.push_back(text_of(one));
+  words_once("Study/Surface list", std::move(platens));
+  once("Study/Slenderness list", study.slendernesses);
+  once("Study/Confining pressure list", study.pressures);
+  once("Study/Sphere radius list", study.sphere_radii);
+  once("Study/Radius multiplier list", study.radius_multipliers);
+  once("Study/Radius spread list", study.radius_spreads);
+  once("Study/Axial rate list", study.axial_rates);
+  once("Study/Safety list", study.safeties);
+  once("Study/Wave crossings list", study.wave_transits);
+  once("Study/Hurry list", study.rate_multipliers);
+  once("Study/Mass scaling list", study.mass_scalings);
+  once("Study/Platen mesh list", study.platen_elements);
+  once("Study/Steps per solve list", study.steps_per_solve);
+  once("Study/Sleeve mesh list", study.sleeve_elements);
+  once("Study/Sleeve mass scaling list", study.sleeve_mass_scalings);
+  words_once("Study/Effects list", study.changes);
+  for (const bool relative : {true, false}) {
+    std::vector<double> gaps;
+    for (const Gap &gap : study.gaps)
+      if (gap.relative == relative) gaps.push_back(gap.value);
+    once("Study/Gap list", gaps);
+  }
+  if (!study.domains.empty() && check.scene().specimen.shape != SpecimenShape::cylinder)
+    check.refuse("Study/Domain list",
+                 "holds cylinders, but Specimen/Shape = " + check.parameters().at("Specimen/Shape").text +
+                     ". Allowed: Shape = cylinder.");
+  if (study.seeds > 1 && check.scene().specimen.packing == PackingKind::file && !check.scene().bond.scattered)
+    check.refuse(
+        "Study/Seeds",
+        "would repeat one run: with Specimen/Packing = file and Bond/Strength scatter = none nothing is "
+        "drawn. Allowed: 1.");
+}
+
+} // namespace
+
+Program study_program() {
+  Program p;
+  p.name = "platen-study";
+  p.purpose =
+      "Runs platen-compress over platens, slendernesses, sizes, packings, rates or what trades accuracy for "
+      "time, each on several seeds, and tables the results; or finds the cheapest runs for an accuracy that "
+      "is ordered (target).";
+  p.kinds = {study_words.begin(), study_words.end()};
+  p.section = "Study";
+  p.declare = declare_study;
+  p.complete = complete;
+  p.check = check_study;
+  p.gives = gives;
+  return p;
 }
 
 } // namespace platen::apps

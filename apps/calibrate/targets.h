@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene/scene_calibrate.h"
+#include "apps/calibrate/calibrate_section.h"
 
 namespace platen::apps {
 

@@ -1,4 +1,4 @@
-#include "apps/scene/scene_targets.h"
+#include "apps/calibrate/targets.h"
 
 #include <algorithm>
 

@@ -1,7 +1,9 @@
 // What platen-calibrate looks for: keys for the common numbers, and targets, sections alike.
+#include "apps/calibrate/calibrate_section.h"
+
+#include "apps/calibrate/targets.h"
 #include "apps/scene/members.h"
-#include "apps/scene/scene_targets.h"
-#include "apps/scene/sections.h"
+#include "apps/scene/scene_check.h"
 
 namespace platen::apps {
 namespace {
@@ -90,9 +92,8 @@ void declare_target(Parameters &parameters, TargetSection &to, std::size_t numbe
   declare_test_of_target(section, to, kind, first);
 }
 
-} // namespace
-
-void declare_calibrate(Parameters &parameters, Calibrate &c) {
+void declare_calibrate(Parameters &parameters, Scene &scene) {
+  Calibrate &c = scene.own<Calibrate>();
   Section section(parameters, "Calibrate");
   auto &parallel = range_of<dem::ParallelBond::Parameters>;
   const Range multipliers = range_of<dem::BondLayout>("radius_multiplier");
@@ -172,6 +173,44 @@ void declare_calibrate(Parameters &parameters, Calibrate &c) {
                  "Search, where Calibrate/Free has contact friction.");
   for (std::size_t k = 0; k < most_targets; ++k)
     declare_target(parameters, c.target_sections[k], k + 1);
+}
+
+void complete(Parameters &parameters, Scene &scene) {
+  Calibrate &c = scene.own<Calibrate>();
+  c.targets = targets_of(parameters, c);
+  double &modulus = scene.model.bond_layout.modulus;
+  if (c.mode == CalibrateMode::abacus && std::isnan(modulus) && !c.moduli.empty()) modulus = c.moduli.front();
+}
+
+// A search for strengths begins with those of the scene; static solves break no bond. Targets have rates of
+// their own, or are checked for it.
+bool gives(const Scene &scene, const Parameters & /*parameters*/, const std::string &path) {
+  const Calibrate &c = calibrate_of(scene);
+  if (path == "Bond/Tensile strength") return !c.searches_strengths();
+  if (path == "Bond/Modulus") return c.mode == CalibrateMode::abacus && !c.moduli.empty();
+  return false;
+}
+
+bool uses(const Scene &scene, const std::string &part) {
+  const std::vector<Target> &targets = calibrate_of(scene).targets;
+  return std::any_of(targets.begin(), targets.end(), [&](const Target &target) {
+    return part == "Sleeve" ? target.sleeve : target.kind == TargetKind::splitting;
+  });
+}
+
+} // namespace
+
+Program calibrate_program() {
+  Program p;
+  p.name = "platen-calibrate";
+  p.purpose = "Finds bonds that give a wanted E, nu, compressive and tensile strength.";
+  p.section = "Calibrate";
+  p.declare = declare_calibrate;
+  p.complete = complete;
+  p.check = check_calibrate;
+  p.gives = gives;
+  p.uses = uses;
+  return p;
 }
 
 } // namespace platen::apps
