@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/pi.h"
+#include "coupling/faults.h"
 #include "coupling/platens_of_test.h"
 #include "coupling/program_of_test.h"
 #include "dem/measure/bond_network.h"
@@ -37,31 +38,6 @@ constexpr double servo_reserve = 10;
 constexpr double springs_of_pressure = 100, least_share_of_bond = 0.01;
 
 // A servo moves the top platen at some time.
-bool has_servo(const LoadingSettings &loading) {
-  const auto on_top = [](const SideAsk &ask) {
-    const std::vector<Side> sides = sides_of(ask.side);
-    return ask.ask != SideAsk::Ask::rate && ask.ask != SideAsk::Ask::hold &&
-           ask.ask != SideAsk::Ask::circumferential && std::count(sides.begin(), sides.end(), Side::top) > 0;
-  };
-  return loading.servo || loading.cell ||
-         std::any_of(loading.stages.begin(), loading.stages.end(), [&](const StageSettings &stage) {
-           return std::any_of(stage.asks.begin(), stage.asks.end(), on_top);
-         });
-}
-
-// What a machine's spring does not go with.
-void require_machine(const PlatenTestSettings &settings) {
-  const MachineSettings &machine = settings.platens.machine;
-  if (!machine.yields()) return;
-  if (settings.loading.start_strain > 0)
-    throw BadSetup("platens.machine.stiffness",
-                   "is not carried to a start without inertia. Allowed: `loading.start_strain` = 0.");
-  if (has_servo(settings.loading) && machine.damping == 0)
-    throw BadSetup("platens.machine.damping",
-                   "lets a servo swing on the spring. Allowed: above 0, or no `loading.servo`, no "
-                   "`loading.cell` and no stage that asks the top platen for a stress.");
-}
-
 } // namespace
 
 double distance_to_plane(const dem::Specimen &specimen, Side side) {
@@ -139,18 +115,11 @@ void PlatenTest::require_in_range() const {
   platen::require_in_range(loading);
   if (loading.cell) platen::require_in_range(*loading.cell);
   if (loading.cell && loading.cell->sleeve) platen::require_in_range(*loading.cell->sleeve);
-  require_machine(settings_);
-  if (!presses_by_hertz(settings_)) return;
-  if (settings_.platens.glued)
-    throw BadSetup("platens.contact", "presses alone, and ends are glued. Allowed: as grains, linear.");
-  if (loading.start_strain > 0)
-    throw BadSetup("loading.start_strain",
-                   "is solved for with linear springs on the platens. Allowed: 0, or "
-                   "`platens.contact` linear.");
+  require_no_fault(settings_, shape());
 }
 
 void PlatenTest::add_platens(const dem::Specimen &specimen) {
-  require_sides(specimen, settings_);
+  require_edge_gaps(specimen.shape, settings_.platens);
   for (const Side side : all_sides) {
     if (settings_.platens.side(side) == nullptr) continue;
     PlatenOfTest made = make_platen(specimen, settings_, side, model);
@@ -219,18 +188,17 @@ void PlatenTest::seat_platens(const dem::Specimen &specimen) {
 void PlatenTest::choose_rates() {
   LoadingSettings &loading = settings_.loading;
   const double transit = facts_.wave_transit;
-  if (std::isnan(loading.rate) && loading.wave_transits > 0) {
-    if (transit == 0)
-      throw BadSetup("loading.wave_transits", "needs bonds: they carry the wave. Allowed: a `loading.rate`.");
+  if (transit == 0 &&
+      (loading.rate_multiplier > 1 || (std::isnan(loading.rate) && loading.wave_transits > 0)))
+    throw BadSetup(loading.rate_multiplier > 1 ? "loading.rate_multiplier" : "loading.wave_transits",
+                   "needs bonds, and the specimen has none. Allowed: a `loading.rate` alone.");
+  if (std::isnan(loading.rate) && loading.wave_transits > 0)
     loading.rate = 1e-3 * shape().height / (loading.wave_transits * transit);
-  }
   if (std::isnan(loading.rate)) loading.rate = 0;
   if (std::isnan(loading.target_strain)) loading.target_strain = std::numeric_limits<double>::infinity();
   ramp_ = loading.ramp > 0 ? loading.ramp
           : bent()         ? periods_of_ramp * bending_period()
                            : transits_of_ramp * transit;
-  if (loading.rate_multiplier > 1 && (!(transit > 0) || !(ramp_ > 0)))
-    throw BadSetup("loading.rate_multiplier", "needs bonds: they tell when the specimen fails. Allowed: 1.");
   servo_slowness_ = gain_of_cell / gain_of_servo();
   if (!loading.cell) return;
   for (const StageSettings &stage : loading.stages)
@@ -371,16 +339,6 @@ std::optional<RateControl::Parameters> PlatenTest::rate_control() const {
   if (!(loading.rate_multiplier > 1)) return std::nullopt;
   return RateControl::Parameters{loading.rate_multiplier, bent() ? bending_period() : facts_.wave_transit,
                                  ramp_, static_cast<double>(model.bonds->size())};
-}
-
-StageScope PlatenTest::stage_scope() const {
-  StageScope scope;
-  for (const Side side : all_sides)
-    if (platen(side) != nullptr) scope.platens.push_back(side);
-  scope.cell = cell();
-  scope.rate = settings_.loading.rate > 0;
-  scope.bonded = facts_.wave_transit > 0;
-  return scope;
 }
 
 } // namespace platen::coupling

@@ -69,7 +69,6 @@ public:
   Servo::Parameters servo_for(double stress, int axis, double ramp, double least) const;
   Servo::Parameters servo_of_top() const;
   std::optional<RateControl::Parameters> rate_control() const;
-  StageScope stage_scope() const;
   const Platen *platen(Side side) const { return platens_[static_cast<std::size_t>(side)]; }
   Platen *platen(Side side) { return platens_[static_cast<std::size_t>(side)]; }
   const ElasticPlaten *elastic_top() const { return elastic_top_; }

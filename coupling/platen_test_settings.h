@@ -157,6 +157,14 @@ struct PlatenTestSettings {
   std::vector<MadeFor<Stage>> stages;
 };
 
+// Whether grains press on platens by Hertz' law.
+inline bool presses_by_hertz(const PlatenTestSettings &settings) {
+  const PlatenSettings &p = settings.platens;
+  if (p.contact != PlatenContact::as_grains) return p.contact == PlatenContact::hertz;
+  const auto &grains = settings.model.contact;
+  return !p.glued && grains && grains->normal == dem::NormalContact::hertz;
+}
+
 inline const PlatenSide *PlatenSettings::side(Side side) const {
   const auto there = [](const std::optional<PlatenSide> &given) { return given ? &*given : nullptr; };
   switch (side) {

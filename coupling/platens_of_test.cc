@@ -27,24 +27,6 @@ double platen_plane(const dem::Specimen &s, Side side, Ends ends) {
 
 namespace {
 
-void require_bar(const dem::Shape &shape, const PlatenTestSettings &settings) {
-  const PlatenSettings &p = settings.platens;
-  if (settings.ends != Ends::ground)
-    throw BadSetup("ends", "would let a bar rock on its outermost spheres. Allowed: ground.");
-  if (shape.kind != dem::ShapeKind::box)
-    throw BadSetup("platens.span", "bends bars of rectangular section. Allowed: a specimen that is a box.");
-  if (!(p.strip_width > 0))
-    throw BadSetup("platens.strip_width", "has to be given: a bar is bent by strips. Allowed: > 0 m.");
-  if (!(p.span > p.strip_width))
-    throw BadSetup("platens.span",
-                   "leaves no gap between the lower strips. Allowed: above `platens.strip_width`, " +
-                       text_of(p.strip_width) + " m.");
-  if (p.span + p.strip_width > shape.width_x)
-    throw BadSetup("platens.span", "is too long for a bar of " + text_of(shape.width_x) +
-                                       " m: the lower strips have to lie under it. Allowed: up to " +
-                                       text_of(shape.width_x - p.strip_width) + " m.");
-}
-
 // Elastic strips get elements about as wide as long: slivers would set the time step and the indentation.
 std::array<int, 3> elements_of_plate(const PlatenSettings &p, double half_x, double half_y) {
   constexpr int least = 2;
@@ -60,7 +42,6 @@ std::array<int, 3> elements_of_plate(const PlatenSettings &p, double half_x, dou
 std::vector<fem::BoxPlate> bending_strips(const dem::Specimen &s, const PlatenTestSettings &settings,
                                           bool top) {
   const PlatenSettings &p = settings.platens;
-  require_bar(s.shape, settings);
   const double plane = platen_plane(s, top ? Side::top : Side::bottom, settings.ends),
                thickness = thickness_of(p, top ? Side::top : Side::bottom),
                low = top ? plane : plane - thickness;
@@ -338,13 +319,6 @@ void require_strips_to_meet(const dem::Specimen &specimen, const PlatenTestSetti
 }
 
 // Without bonds the stiffness that a bond would have still measures the grains; N/m.
-bool presses_by_hertz(const PlatenTestSettings &settings) {
-  const PlatenSettings &p = settings.platens;
-  if (p.contact != PlatenContact::as_grains) return p.contact == PlatenContact::hertz;
-  const auto &grains = settings.model.contact;
-  return !p.glued && grains && grains->normal == dem::NormalContact::hertz;
-}
-
 double mean_bond_stiffness(const dem::Model &model) {
   double sum = 0;
   if (model.bonds && model.bonds->size() > 0) {

@@ -22,8 +22,8 @@ double cells_of_platen(const dem::Shape &shape, const PlatenTestSettings &settin
 // sphere, ground it lies in the end plane.
 double platen_plane(const dem::Specimen &specimen, Side side, Ends ends);
 
-// Throws BadSetup where platens press sides that the specimen has not, or that something else presses.
-void require_sides(const dem::Specimen &specimen, const PlatenTestSettings &settings);
+// Throws BadSetup if the gaps at the edges of platens leave too little of one.
+void require_edge_gaps(const dem::Shape &shape, const PlatenSettings &settings);
 
 // Whether platens press sides beside this one.
 bool has_neighbours(const PlatenSettings &settings, Side side);
@@ -40,6 +40,5 @@ void require_strips_to_meet(const dem::Specimen &specimen, const PlatenTestSetti
 
 // N/m, of the bonds; without bonds of those that the pairs of the packing would have.
 double mean_bond_stiffness(const dem::Model &model);
-bool presses_by_hertz(const PlatenTestSettings &settings); // grains on platens
 
 } // namespace platen::coupling

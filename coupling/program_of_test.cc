@@ -334,7 +334,6 @@ std::unique_ptr<Program> make_program(const PlatenTest &test) {
     own.push_back(make(test));
   if (!own.empty()) return std::make_unique<Program>(test, std::move(own));
   if (settings.loading.stages.empty()) return ProgramMaker(test, stages_of_members(test))();
-  require_stages(settings.loading.stages, test.stage_scope());
   return ProgramMaker(test, settings.loading.stages)();
 }
 

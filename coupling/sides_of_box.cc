@@ -16,23 +16,11 @@ bool has_sides(const PlatenSettings &p) {
 
 } // namespace
 
-void require_sides(const dem::Specimen &specimen, const PlatenTestSettings &settings) {
-  const PlatenSettings &p = settings.platens;
-  const LoadingSettings &loading = settings.loading;
-  if (!has_sides(p)) return;
-  const std::string first = p.left    ? "platens.left"
-                            : p.right ? "platens.right"
-                            : p.front ? "platens.front"
-                                      : "platens.back";
-  if (specimen.shape.kind != dem::ShapeKind::box)
-    throw BadSetup(first, "presses a flat side. Allowed: a specimen that is a box.");
-  if (p.span > 0) throw BadSetup(first, "does not go with `platens.span`: a bar is bent by strips.");
-  if (loading.cell || loading.wall)
-    throw BadSetup(first, std::string("does not go with `loading.") + (loading.cell ? "cell" : "wall") +
-                              "`, which presses the same sides.");
+void require_edge_gaps(const dem::Shape &shape, const PlatenSettings &settings) {
+  if (!has_sides(settings)) return;
   for (const int axis : {0, 1, 2}) {
-    const double most = 0.25 * length(specimen.shape, axis);
-    if (edge_gap(specimen.shape, p, axis) > most)
+    const double most = 0.25 * length(shape, axis);
+    if (edge_gap(shape, settings, axis) > most)
       throw BadSetup("platens.edge_gap", "leaves too little of a platen. Allowed: up to " + text_of(most) +
                                              " m, a quarter of the specimen.");
   }

@@ -1,4 +1,4 @@
-# Sources of platen-bar but for its main, apps/platen_bar.cc; linked with platen_run.
+# Sources of platen-bar; linked with platen_run.
 set(PLATEN_BAR_SOURCES
   bar/bar.cc
   bar/bar_results.cc

@@ -1,4 +1,4 @@
-# Sources of platen-bonds but for its main, apps/platen_bonds.cc; linked with platen_run.
+# Sources of platen-bonds; linked with platen_run.
 set(PLATEN_BONDS_SOURCES
   bonds/bond_results.cc
   bonds/bond_rig.cc

@@ -1,4 +1,4 @@
-# Sources of platen-calibrate but for its main, apps/platen_calibrate.cc; linked with platen_run.
+# Sources of platen-calibrate; linked with platen_run.
 set(PLATEN_CALIBRATE_SOURCES
   calibrate/abacus.cc
   calibrate/analysis.cc

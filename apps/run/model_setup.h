@@ -1,13 +1,12 @@
 // From a scene to the settings of a particle model.
 #pragma once
 
-#include "apps/scene/scene.h"
+#include "apps/scene/settings.h"
 #include "dem/model.h"
 
 namespace platen::apps {
 
-// What the scene leaves out is no part of the settings; the rest is the scene's as it is.
+// With the files that the scene names. Throws InputError for one that cannot be read.
 dem::ModelSettings model_settings(const Scene &scene);
-std::optional<dem::ContactSettings> contact_settings(const Scene &scene);
 
 } // namespace platen::apps

@@ -13,6 +13,7 @@
 #include "apps/run/problem_setup.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/parameters.h"
+#include "apps/scene/settings.h"
 #include "base/pi.h"
 #include "coupling/platens_of_test.h"
 
@@ -216,7 +217,7 @@ double seconds_of_step(const Needs &needs, const coupling::PlatenTestSettings &o
 } // namespace
 
 CountedCosts counted_costs(const Scene &scene, const dem::Shape &shape) {
-  const coupling::PlatenTestSettings settings = settings_without_meshes(scene);
+  const coupling::PlatenTestSettings settings = settings_without_files(scene);
   const Needs needs = needs_of(scene, shape, settings, elements_around(scene));
   return {needs.spheres, needs.bytes(),
           seconds_of_step(needs, settings) * duration(scene, shape.height) /
@@ -233,13 +234,13 @@ CountedCosts counted_costs(const Scene &scene) {
 }
 
 Needs needs_of(const Scene &scene, const dem::Shape &shape) {
-  return needs_of(scene, shape, settings_without_meshes(scene), elements_around(scene));
+  return needs_of(scene, shape, settings_without_files(scene), elements_around(scene));
 }
 
 void require_memory(const Scene &scene, const dem::Shape &shape) {
   if (scene.specimen.packing != PackingKind::file) check_count(scene, shape);
   const auto memory = static_cast<double>(this_machine().memory_bytes);
-  const coupling::PlatenTestSettings settings = settings_without_meshes(scene);
+  const coupling::PlatenTestSettings settings = settings_without_files(scene);
   const Needs needs = needs_of(scene, shape, settings, elements_around(scene));
   if (memory == 0 || needs.bytes() <= memory) return require_useful_elements(scene, shape, settings);
   if (needs.platen_bytes >= std::max(needs.sphere_bytes, needs.sleeve_bytes))
@@ -256,7 +257,7 @@ void require_memory(const Scene &scene, const dem::Shape &shape) {
 
 std::string counted_estimate(const Scene &scene, const dem::Shape &shape) {
   const auto memory = static_cast<double>(this_machine().memory_bytes);
-  const coupling::PlatenTestSettings settings = settings_without_meshes(scene);
+  const coupling::PlatenTestSettings settings = settings_without_files(scene);
   const Needs needs = needs_of(scene, shape, settings, elements_around(scene));
   if (memory == 0 || needs.bytes() <= share_of_dry_run * memory) return "";
   const double step = seconds_of_step(needs, settings),

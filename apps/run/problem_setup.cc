@@ -90,17 +90,6 @@ fem::Grid platen_grid(const Scene &scene, const Face &face) {
   }
 }
 
-// Those of sides that stay free are left out.
-coupling::PlatenSettings platen_settings(const Scene &scene) {
-  using coupling::Side;
-  Platens all = scene.platens;
-  if (!all.has(Side::left)) all.left.reset(), all.right.reset();
-  if (!all.has(Side::front)) all.front.reset(), all.back.reset();
-  if (!all.deformable) all.elastic.reset();
-  if (!scene.loading.bending()) all.span = not_given;
-  return all;
-}
-
 } // namespace
 
 std::vector<std::string> effects_on(const Scene &scene) {
@@ -111,7 +100,8 @@ std::vector<std::string> effects_off(const Scene &scene) {
 }
 
 coupling::PlatenTestSettings problem_settings(const Scene &scene) {
-  coupling::PlatenTestSettings to = settings_without_meshes(scene);
+  coupling::PlatenTestSettings to = settings_without_files(scene);
+  to.model = model_settings(scene);
   const auto read = [&](coupling::PlatenSide &side, coupling::Side which) {
     side.grid = platen_grid(scene, scene.platens.face(which));
   };
@@ -119,24 +109,6 @@ coupling::PlatenTestSettings problem_settings(const Scene &scene) {
   read(to.platens.top, Side::top), read(to.platens.bottom, Side::bottom);
   if (to.platens.left) read(*to.platens.left, Side::left), read(*to.platens.right, Side::right);
   if (to.platens.front) read(*to.platens.front, Side::front), read(*to.platens.back, Side::back);
-  return to;
-}
-
-coupling::PlatenTestSettings settings_without_meshes(const Scene &scene) {
-  coupling::PlatenTestSettings to;
-  to.model = model_settings(scene);
-  to.ends = scene.specimen.ends;
-  to.end_layer = scene.specimen.end_layer;
-  to.seat = scene.specimen.seat;
-  to.net_section = scene.specimen.net_section;
-  to.platens = platen_settings(scene);
-  to.loading = scene.loading;
-  to.loading.tension = scene.loading.test == LoadingTest::tension;
-  to.loading.wall = scene.loading.walled();
-  to.loading.cell->alone = scene.loading.hydrostatic();
-  if (!scene.loading.sleeved()) to.loading.cell->sleeve.reset();
-  if (!scene.loading.confined()) to.loading.cell.reset();
-  to.time_step = scene.time_step;
   return to;
 }
 

@@ -7,8 +7,6 @@
 namespace platen::apps {
 
 coupling::PlatenTestSettings problem_settings(const Scene &scene);
-// The same without reading the meshes of platens: their grids are null.
-coupling::PlatenTestSettings settings_without_meshes(const Scene &scene);
 
 // Words of the effects that a scene has on, and of those it has off, of what a program reads, for --dry-run
 // and summary.json.

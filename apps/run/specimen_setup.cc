@@ -89,14 +89,6 @@ dem::Specimen read_specimen(const Scene &scene) {
 
 } // namespace
 
-dem::Shape specimen_shape(const Scene &scene) {
-  const SpecimenSection &specimen = scene.specimen;
-  const bool round = specimen.shape == SpecimenShape::cylinder || specimen.shape == SpecimenShape::disc ||
-                     (specimen.shape == SpecimenShape::bar && specimen.round());
-  return round ? dem::cylinder(specimen.radius, specimen.height)
-               : dem::box(specimen.width_x, specimen.width_y, specimen.height);
-}
-
 void check_phases(const Scene &scene, const dem::Specimen &specimen) {
   const PhasesSection &phases = scene.phases;
   if (phases.by == PhasesBy::radius && (dem::largest_radius(specimen) <= phases.phases.radius_above ||

@@ -4,14 +4,10 @@
 #include <functional>
 #include <string>
 
-#include "apps/scene/scene.h"
+#include "apps/scene/settings.h"
 #include "dem/packing/specimen.h"
 
 namespace platen::apps {
-
-// The shape that Specimen/Shape, Radius, Height and Width x, y describe. A bar is round where Radius is
-// given.
-dem::Shape specimen_shape(const Scene &scene);
 
 // How often a packing of tiles repeats itself, within a percent.
 struct Tiling {

@@ -1,69 +1,105 @@
-// Platens, and what is done with them.
+// Platens and what is done with them: what the library refuses of the settings (coupling/faults.h), by the
+// entries that set them, and what only a scene can ask.
 #include "apps/scene/scene_check.h"
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "apps/scene/settings.h"
 #include "apps/scene/units.h"
+#include "coupling/faults.h"
 
 namespace platen::apps {
+namespace {
 
-using By = dem::Weakening::By;
-
-void SceneCheck::friction(coupling::Side of) const {
-  const dem::SurfaceFriction &side = scene_.platens.at(of);
-  if (side.friction_dynamic <= side.friction_static) return;
-  const std::string own = section_of(of) + "/Friction dynamic", common = "Platens/Friction dynamic";
-  const std::string blamed = parameters_.at(own).changed() ? own : common;
-  refuse(blamed, "is above the static friction, " + shortest_text(side.friction_static) + ", of the " +
-                     coupling::name_of(of) + " platen. Allowed: 0 ... " +
-                     shortest_text(side.friction_static) + ".");
+// The first entry of a stage that the scene sets: messages about what lacks stand at its line.
+std::string first_entry(const Parameters &parameters, const std::string &section) {
+  for (const Entry &entry : parameters.entries())
+    if (entry.path.rfind(section + "/", 0) == 0 && entry.changed()) return entry.path;
+  return section + "/Until";
 }
 
-void SceneCheck::weakening(coupling::Side of) const {
-  const dem::SurfaceFriction &side = scene_.platens.at(of);
-  if (side.weakening.by == By::nothing) return;
-  const bool by_slip = side.weakening.by == By::slip;
-  const std::string own = section_of(of) + "/Friction law",
-                    blamed = parameters_.at(own).changed() ? own : "Platens/Friction law";
-  if (!given(by_slip ? side.weakening.slip_length : side.weakening.slip_velocity))
-    refuse(blamed, std::string("needs Platens/Slip ") + (by_slip ? "length > 0 m." : "velocity > 0 m/s."));
-  if (side.friction_dynamic == side.friction_static)
-    refuse(blamed, "has nothing to fall to. Allowed: a Friction dynamic below the static one, " +
-                       shortest_text(side.friction_static) + ".");
+// A platen that says nothing itself takes what stands for all.
+std::string blamed(const Parameters &parameters, const std::string &entry) {
+  const std::string common = "Platens" + entry.substr(entry.rfind('/'));
+  const bool of_side = entry.rfind("Platens/", 0) == 0 && std::count(entry.begin(), entry.end(), '/') == 2;
+  return of_side && !parameters.at(entry).changed() && parameters.find(common) != nullptr ? common : entry;
+}
+
+} // namespace
+
+void SceneCheck::test() const {
+  if (!loads()) return;
+  const SpecimenSection &specimen = scene_.specimen;
+  const bool lies = scene_.loading.bending() && specimen.shape == SpecimenShape::bar && !specimen.round(),
+             known = specimen.packing != PackingKind::file && program_.presses != Presses::discs && !lies;
+  const dem::Shape shape = specimen_shape(scene_);
+  for (const coupling::Fault &fault :
+       coupling::faults(settings_without_files(scene_), known ? &shape : nullptr)) {
+    const std::string entry = blamed(parameters_, parameters_.entry_of(fault.member)),
+                      section = entry.substr(0, entry.rfind('/')),
+                      reason = parameters_.with_entries(fault.reason);
+    const bool of_stage = section.rfind("Loading/Stage ", 0) == 0;
+    if (of_stage && !parameters_.at(entry).changed())
+      refuse(first_entry(parameters_, section), "is of a stage whose " + entry + " " + reason);
+    else
+      refuse(entry, reason);
+  }
+}
+
+// What only some programs do, and what they need for it.
+void SceneCheck::asked_of_program() const {
+  if (!loads()) return;
+  const Loading &loading = scene_.loading;
+  const Platens &platens = scene_.platens;
+  const auto only = [&](bool asked, const std::string &path, const std::string &allowed) {
+    if (asked && !program_.presses_specimens())
+      refuse(path, "is for platen-compress. Allowed: " + allowed + ".");
+  };
+  only(platens.sides != PlatenSides::two, "Platens/Sides", "two");
+  only(platens.spherical_seat, "Platens/Top/Seat", "fixed");
+  only(loading.start_strain > 0, "Loading/Start strain", "0");
+  only(loading.bending(), "Loading/Test", "compression");
+  only(loading.sleeved(), "Loading/Confinement", "none, particles");
+  if (loading.staged()) only(true, first_entry(parameters_, section_of_stage(1)), "no stages");
+  if (program_.presses == Presses::trials && platens.deformable)
+    refuse("Platens/Kind", "is for platen-compress and platen-brazilian. Allowed: rigid.");
+  if (program_.presses == Presses::trials && platens.machine.yields())
+    refuse("Platens/Machine stiffness",
+           "is not for platen-calibrate: it looks for what holds under any machine. Allowed: not set.");
+  if (program_.presses == Presses::discs && loading.test != LoadingTest::compression)
+    refuse("Loading/Test", "does not go with platen-brazilian. Allowed: compression.");
+  if (program_.presses == Presses::discs && loading.confined())
+    refuse("Loading/Confinement", "does not go with platen-brazilian. Allowed: none.");
 }
 
 void SceneCheck::platens() const {
-  const Platens &platens = scene_.platens;
-  if (loads() && !situation().given_by_program("Platens/Surface")) surfaces();
-  for (const coupling::Side side : sides_of_scene)
-    if (platens.has(side)) friction(side), weakening(side);
-  const bool tension = scene_.loading.test == LoadingTest::tension, stress = scene_.loading.servo;
-  if (loads() && tension && !platens.glued)
-    refuse("Loading/Test", "needs Platens/Attachment = glued: a platen in contact cannot pull.");
-  if (stress && scene_.loading.top_stress == 0)
-    refuse("Platens/Top/Control", "needs Platens/Top/Stress > 0.");
-  if (stress && scene_.loading.ramp == 0)
-    refuse("Platens/Top/Control", "needs Loading/Ramp > 0: the time to the full stress.");
-  if (stress && tension)
-    refuse("Platens/Top/Control", "presses, but Loading/Test = tension. Allowed: motion.");
-  if (loads() && platens.deformable) deformable_platens();
-  if (loads() && platens.machine.yields()) machine();
-  if (loads() && platens.deformable) layers();
-  if (loads() && platens.spherical_seat) seat();
-  if (loads()) meshes();
+  if (!loads()) return;
+  if (!situation().given_by_program("Platens/Surface")) surfaces();
+  if (scene_.platens.deformable) layers();
+  meshes();
 }
 
-void SceneCheck::machine() const {
-  const auto refuse_spring = [&](const std::string &why) { refuse("Platens/Machine stiffness", why); };
-  if (program_.presses == Presses::trials)
-    refuse_spring(
-        "is not for platen-calibrate: it looks for what holds under any machine. Allowed: not set.");
-  if (scene_.loading.start_strain > 0)
-    refuse_spring("is not carried to a start without inertia. Allowed: Loading/Start strain = 0.");
-  if (scene_.platens.machine.damping > 0) return;
-  const std::string swings = "lets a servo swing on the spring. Allowed: above 0, or ";
-  if (scene_.loading.servo) refuse("Platens/Machine damping", swings + "Platens/Top/Control = motion.");
-  if (scene_.loading.confined()) refuse("Platens/Machine damping", swings + "Loading/Confinement = none.");
+void SceneCheck::loading() const {
+  if (!loads()) return;
+  const Loading &loading = scene_.loading;
+  if (loading.servo && loading.ramp == 0)
+    refuse("Platens/Top/Control", "needs Loading/Ramp > 0: the time to the full stress.");
+  if (loading.bending()) need("Platens/Span", scene_.platens.span, "a bar needs its supports.");
+  if (loading.hydrostatic() && !loading.confined())
+    refuse("Loading/Test",
+           "needs Loading/Confinement = particles, sleeve: the lateral surface is pressed too.");
+  const bool varied = situation().given_by_program("Loading/Confining pressure");
+  if (loading.confined() && !loading.staged() && !varied && !(loading.cell->pressure > 0))
+    refuse("Loading/Confinement", "needs Loading/Confining pressure > 0.");
+  for (std::size_t k = 0; k < loading.stages.size(); ++k)
+    if (!loading.stage_sections[k].given())
+      for (std::size_t later = k; later < most_stages; ++later)
+        if (loading.stage_sections[later].given())
+          return refuse(first_entry(parameters_, section_of_stage(later + 1)),
+                        "is of a stage without the one before it: " + section_of_stage(k + 1) +
+                            " is empty. Allowed: stages " + "without a gap.");
 }
 
 // What a word needs besides the entries that it stands for.
@@ -86,21 +122,29 @@ void SceneCheck::surfaces() const {
     refuse("Platens/Surface", "ties the ends, but Platens/Attachment = contact. Allowed: glued.");
 }
 
-void SceneCheck::deformable_platens() const {
-  const Loading &loading = scene_.loading;
-  const auto refuse_kind = [&](const std::string &why) { refuse("Platens/Kind", why + " Allowed: rigid."); };
-  if (program_.presses == Presses::trials) refuse_kind("is for platen-compress and platen-brazilian.");
-  if (scene_.model.scheme != dem::Scheme::velocity_verlet)
-    refuse_kind("needs Integration/Scheme = velocity verlet.");
-  if (loading.start_strain > 0)
-    refuse_kind("needs Loading/Start strain = 0: the static solve is between rigid ends.");
-  const double pad = scene_.platens.elastic->pad_thickness;
-  const bool plates = scene_.platens.any_of([&](coupling::Side side) {
-    return scene_.platens.face(side).mesh_file.empty();
-  }); // which have the thickness
-  if (pad > 0 && plates && pad >= scene_.platens.thickness)
-    refuse("Platens/Pad thickness", "leaves nothing of the platen. Allowed: 0 ... " +
-                                        shortest_text(scene_.platens.thickness) + " m, Platens/Thickness.");
+void SceneCheck::layers_of(const std::string &path, const std::vector<NamedLayer> &layers, bool plate) const {
+  if (layers.empty() || !plate) return;
+  double sum = 0; // m
+  for (const NamedLayer &layer : layers) {
+    if (!given(layer.thickness))
+      refuse(path, "gives " + layer.material + " no thickness. Allowed: \"" + layer.material + " 2 mm\".");
+    sum += layer.thickness;
+  }
+  constexpr double round_off = 1e-9;
+  const bool thick = parameters_.at("Platens/Thickness").changed();
+  if (thick && sum > (1 + round_off) * scene_.platens.thickness)
+    refuse(path, "is " + fmt::format("{:.6g}", sum) + " m together. Allowed: up to " +
+                     shortest_text(scene_.platens.thickness) + " m, Platens/Thickness.");
+}
+
+void SceneCheck::layers() const {
+  const Platens &platens = scene_.platens;
+  const bool top_plate = platens.face(coupling::Side::top).mesh_file.empty(),
+             bottom_plate = platens.face(coupling::Side::bottom).mesh_file.empty();
+  layers_of("Platens/Layers", platens.layers,
+            (top_plate && platens.top_layers.empty()) || (bottom_plate && platens.bottom_layers.empty()));
+  layers_of("Platens/Top/Layers", platens.top_layers, top_plate);
+  layers_of("Platens/Bottom/Layers", platens.bottom_layers, bottom_plate);
 }
 
 void SceneCheck::meshes() const {
@@ -111,120 +155,6 @@ void SceneCheck::meshes() const {
     if (scene_.loading.bending()) refuse(path, "does not go with Loading/Test = three point bending.");
     if (scene_.platens.strip_width > 0) refuse(path, "does not go with Platens/Strip width. Allowed: 0.");
   }
-}
-
-void SceneCheck::loading() const {
-  if (situation().rate_by_transits()) wave_transits();
-  if (scene_.loading.rate_multiplier > 1 && !scene_.bond.bonded())
-    refuse("Loading/Hurry", "needs bonds: they tell when the specimen fails. Allowed: 1.");
-}
-
-// What breaks at a tenth of the strain, or oscillates, would be struck at a speed that suits compression.
-void SceneCheck::wave_transits() const {
-  const LoadingTest test = scene_.loading.test;
-  if (scene_.loading.hydrostatic()) return;
-  const auto refuse_rate = [&](const std::string &why) {
-    refuse("Loading/Wave crossings", why + " Allowed: an Axial rate.");
-  };
-  if (test != LoadingTest::compression && test != LoadingTest::uniaxial_strain)
-    refuse_rate("sets no speed but of Loading/Test = compression, uniaxial strain.");
-  if (!scene_.bond.bonded()) refuse_rate("needs bonds: they carry the wave.");
-}
-
-void SceneCheck::start() const {
-  const Loading &loading = scene_.loading;
-  if (!(loading.start_strain > 0)) return;
-  const auto refuse_start = [&](const std::string &why) { refuse("Loading/Start strain", why); };
-  if (!program_.presses_specimens()) refuse_start("is for platen-compress. Allowed: 0.");
-  if (loading.test != LoadingTest::compression)
-    refuse_start("needs Loading/Test = compression: the solve presses. Allowed: 0.");
-  if (loading.confinement != ConfinementKind::none)
-    refuse_start("does not go with Loading/Confinement. Allowed: 0.");
-  if (scene_.loading.servo) refuse_start("needs Platens/Top/Control = motion. Allowed: 0.");
-  if (!scene_.bond.bonded()) refuse_start("needs bonds to solve for. Allowed: 0.");
-  if (scene_.bond.remembers())
-    refuse_start("needs bonds without a memory: Effects/Bond = " + std::string(scene_.bond.word()) +
-                 " answers to its whole path. Allowed: 0.");
-  if (scene_.effects.gravity) refuse_start("does not go with Effects/Gravity = on. Allowed: 0.");
-  if (loading.start_strain >= loading.target_strain)
-    refuse_start("is not below Loading/Target strain = " + parameters_.at("Loading/Target strain").text +
-                 ".");
-  if (!loading.unload_at.empty() && loading.start_strain >= loading.unload_at.front())
-    refuse_start("is not below the first of Loading/Unload at.");
-}
-
-void SceneCheck::splitting() const {
-  if (program_.presses != Presses::discs) return;
-  if (scene_.loading.test != LoadingTest::compression)
-    refuse("Loading/Test", "does not go with platen-brazilian. Allowed: compression.");
-  if (scene_.loading.confinement != ConfinementKind::none)
-    refuse("Loading/Confinement", "does not go with platen-brazilian. Allowed: none.");
-}
-
-// What of it the packed shape decides, a file's too, is left to the problem.
-void SceneCheck::bending() const {
-  if (!loads() || !scene_.loading.bending()) return;
-  const Platens &platens = scene_.platens;
-  const SpecimenSection &specimen = scene_.specimen;
-  const std::string with = "does not go with Loading/Test = three point bending. Allowed: ";
-  if (!program_.presses_specimens()) refuse("Loading/Test", "bends bars: for platen-compress.");
-  const bool round = specimen.shape == SpecimenShape::cylinder || specimen.round();
-  if (round && specimen.packing != PackingKind::file)
-    refuse("Specimen/Shape", with + "box, rectangular bar.");
-  if (specimen.ends != dem::EndPreparation::ground) refuse("Specimen/Ends", with + "ground.");
-  need("Platens/Span", platens.span, "a bar needs its supports.");
-  if (platens.strip_width == 0)
-    refuse("Platens/Strip width", "is not set: a bar is bent by strips. Allowed: > 0 m.");
-  if (platens.glued) refuse("Platens/Attachment", with + "contact.");
-  if (scene_.loading.servo) refuse("Platens/Top/Control", with + "motion.");
-  if (scene_.loading.confinement != ConfinementKind::none) refuse("Loading/Confinement", with + "none.");
-  if (!scene_.bond.bonded())
-    refuse("Effects/Bond", "leaves a heap of grains, no bar to bend. Allowed: any other.");
-}
-
-void SceneCheck::cycles() const {
-  const Loading &loading = scene_.loading;
-  if (loading.unload_at.empty()) return;
-  if (!std::is_sorted(loading.unload_at.begin(), loading.unload_at.end()))
-    refuse("Loading/Unload at", "does not ascend.");
-  if (loading.unload_at.back() >= loading.target_strain)
-    refuse("Loading/Unload at",
-           "goes beyond Loading/Target strain = " + parameters_.at("Loading/Target strain").text + ".");
-  if (loading.hydrostatic() || scene_.loading.servo)
-    refuse("Loading/Unload at", "needs platens that are driven by motion.");
-}
-
-void SceneCheck::cell() const {
-  const Loading &loading = scene_.loading;
-  if (loading.servo_gain > 0 && loading.servo_gain < 0.1)
-    refuse("Loading/Servo gain", "is too slow to hold anything. Allowed: 0, or 0.1 ... 10.");
-  if (loading.walled() && loading.confinement != ConfinementKind::none)
-    refuse("Loading/Confinement", "does not go with Loading/Test = uniaxial strain. Allowed: none.");
-  if (loading.hydrostatic() && !loading.confined())
-    refuse("Loading/Test",
-           "needs Loading/Confinement = particles, sleeve: the lateral surface is pressed too.");
-  if (!loading.confined()) return;
-  const bool varied = situation().given_by_program("Loading/Confining pressure");
-  if (loads() && !loading.staged() && !varied && !(loading.cell->pressure > 0))
-    refuse("Loading/Confinement", "needs Loading/Confining pressure > 0.");
-  if (loads() && !scene_.bond.bonded())
-    refuse("Loading/Confinement",
-           "needs bonds: they tell the specimen from what has come loose. Allowed: none.");
-  if (scene_.loading.servo)
-    refuse("Platens/Top/Control",
-           "does not go with Loading/Confinement: the pressure holds the platen at first, then it moves. "
-           "Allowed: motion.");
-  if (!loading.sleeved()) return;
-  if (!program_.presses_specimens())
-    refuse("Loading/Confinement", "is for platen-compress. Allowed: none, particles.");
-  if (scene_.specimen.packing != PackingKind::file && scene_.specimen.shape != SpecimenShape::cylinder)
-    refuse("Loading/Confinement", "goes around a cylinder. Allowed: none, particles.");
-  if (scene_.model.scheme != dem::Scheme::velocity_verlet)
-    refuse("Integration/Scheme", "does not go with Loading/Confinement = sleeve. Allowed: velocity verlet.");
-  if (loading.cell->sleeve->mass_scaling > 0 && loading.cell->sleeve->mass_scaling < 1)
-    refuse("Sleeve/Mass scaling", "makes the sleeve lighter. Allowed: 0, or 1 and more.");
-  if (loading.cell->sleeve->elements_around > 0 && loading.cell->sleeve->elements_around < 8)
-    refuse("Sleeve/Elements around", "is too few for a tube. Allowed: 0, or 8 and more.");
 }
 
 } // namespace platen::apps

@@ -64,6 +64,7 @@ public:
   bool is_section(const std::string &path) const;
   // Keys of this section, of what is in it too, belong to another program: they are neither read nor refused.
   void pass_over(const std::string &section) { foreign_.push_back(section); }
+  bool is_foreign(const std::string &path) const;
   // Throws InputError unless path is a section.
   void enter(const std::string &path, const Origin &origin) const;
   // Sets an entry. Throws InputError for an unknown path, a bad value, or a key that was set before at the
@@ -131,7 +132,6 @@ private:
   std::string nearest_section(const std::string &path) const; // "" where none is near
   std::string contents_of(const std::string &section) const;
   bool names_a_fault(const std::string &message) const;
-  bool is_foreign(const std::string &path) const;
   std::size_t position(const std::string &path) const; // entries_.size() for an unknown path
 
   std::vector<Entry> entries_;

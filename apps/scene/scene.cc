@@ -229,11 +229,11 @@ std::string scene_text(const Scene &scene, const std::filesystem::path &folder) 
 }
 
 void print_parameters(const Scene &scene, const std::string &part, bool as_json, std::ostream &out) {
-  const std::vector<Entry> entries =
-      part.empty() ? written(*scene.parameters, true) : part_of(*scene.parameters, part);
   std::vector<Entry> read;
-  std::copy_if(entries.begin(), entries.end(), std::back_inserter(read),
-               [&](const Entry &entry) { return scene.program->reads_entry(entry.path); });
+  if (!scene.parameters->is_foreign(part))
+    for (const Entry &entry :
+         part.empty() ? written(*scene.parameters, true) : part_of(*scene.parameters, part))
+      if (scene.program->reads_entry(entry.path)) read.push_back(entry);
   if (read.empty())
     throw InputError("command line: error: --print-parameters: " + scene.program->name +
                      " reads nothing of " + part + ".");

@@ -21,16 +21,10 @@ public:
   void calibrated_packing() const;
   void phases() const;
   void contact() const;
-  void sides() const;
   void platens() const;
   void loading() const;
-  void wave_transits() const;
-  void start() const;
-  void splitting() const;
-  void bending() const;
-  void cycles() const;
-  void stages() const;
-  void cell() const;
+  void asked_of_program() const;
+  void test() const; // by the rules of the library
   void scale() const;
   void notes();
 
@@ -51,18 +45,12 @@ public:
 
 private:
   Situation situation() const { return {scene_, parameters_, program_}; }
-  void refuse_unless_whole(const std::string &path, const std::string &allowed) const;
   void cross_section() const;
   void spheres_fit() const;
   void surfaces() const;
-  void deformable_platens() const;
-  void machine() const;
   void meshes() const;
   void layers() const;
   void layers_of(const std::string &path, const std::vector<NamedLayer> &layers, bool plate) const;
-  void seat() const;
-  void friction(coupling::Side of) const;
-  void weakening(coupling::Side of) const;
   void proportions() const;
   double wave_speed() const;
   void waves() const;

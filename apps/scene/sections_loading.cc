@@ -16,7 +16,9 @@ bool any_weakens(const Scene &scene, By by) {
   return scene.platens.any_of([&](coupling::Side side) { return scene.platens.at(side).weakening.by == by; });
 }
 
-void declare_friction(Section &section, dem::SurfaceFriction &friction, const std::string &common) {
+// `member` is the path of the side in the library's settings; both empty: of what all platens have.
+void declare_friction(Section &section, dem::SurfaceFriction &friction, const std::string &common,
+                      const std::string &member) {
   Members of(section, friction);
   const auto own = [&](const Declared &declared, const std::string &key, const char *taken) {
     if (!common.empty()) Declared(declared).says("As " + common + key + taken);
@@ -39,13 +41,18 @@ void declare_friction(Section &section, dem::SurfaceFriction &friction, const st
                    "no Friction law is velocity weakening"),
       "Slip velocity", " where not given.");
   of.rest({"friction_law"});
+  if (member.empty()) return;
+  for (const char *name :
+       {"friction_static", "friction_dynamic", "friction_law", "slip_length", "slip_velocity"})
+    section.at(key_of(name)).member(member + name);
 }
 
 void declare_side(Parameters &parameters, Platens &platens, coupling::Side side) {
   Section section(parameters, section_of(side));
   section.entry<SurfaceKind>("Surface", platens.face(side).surface, surface_words(true),
                              "As Platens/Surface, of this platen alone; common: as both.");
-  declare_friction(section, platens.at(side), "Platens/");
+  declare_friction(section, platens.at(side), "Platens/",
+                   std::string("platens.") + coupling::name_of(side) + ".");
   const bool along_z = coupling::axis_of(side) == 2;
   const std::string turned =
       std::string(" As for ") + (coupling::is_high(side) ? "Top" : "Bottom") + ", its z along " +
@@ -133,8 +140,10 @@ void declare_elastic(Section &section, Platens &platens) {
 void declare_platens(Parameters &parameters, Platens &platens, coupling::LoadingSettings &loading) {
   Section section(parameters, "Platens");
   Members of(section, platens);
-  section.entry<bool>("Kind", platens.deformable, {{"rigid", false}, {"deformable", true}},
-                      "Rigid bodies, or elastic ones by finite elements.");
+  section
+      .entry<bool>("Kind", platens.deformable, {{"rigid", false}, {"deformable", true}},
+                   "Rigid bodies, or elastic ones by finite elements.")
+      .member("platens.elastic");
   section
       .entry(
           "Sides", platens.sides, platen_sides,
@@ -149,7 +158,7 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
                              "What both platens' faces are: the entries that a word stands for, each where "
                              "the scene does not give it. " +
                                  surface_documentation());
-  declare_friction(section, platens.both, "");
+  declare_friction(section, platens.both, "", "");
   of("contact");
   const auto hertz = [](const Scene &s) { return s.hertz_on_platens(); };
   const auto linear = [](const Scene &s) { return !s.hertz_on_platens(); };
@@ -226,12 +235,14 @@ void declare_loading(Parameters &parameters, Loading &loading) {
   const auto driven = [](const Scene &s) { return s.loading.servo || s.loading.confined(); };
   const auto unstaged = [](const Scene &s) { return !s.loading.staged(); };
   const std::string staged = "Loading/Stage 1 is there";
-  section.entry(
-      "Test", loading.test, loading_tests,
-      "The platens approach or part; hydrostatic: they and the lateral surface press alike, up to "
-      "Confining pressure; uniaxial strain: they approach while a stiff frictionless wall "
-      "holds the lateral surface; three point bending: strips approach, one above the middle of a bar "
-      "along x, two below.");
+  section
+      .entry("Test", loading.test, loading_tests,
+             "The platens approach or part; hydrostatic: they and the lateral surface press alike, up to "
+             "Confining pressure; uniaxial strain: they approach while a stiff frictionless wall "
+             "holds the lateral surface; three point bending: strips approach, one above the middle of a bar "
+             "along x, two below.")
+      .member("loading.tension")
+      .member("loading.wall");
   of("rate", "Axial rate").unless("Loading/Test", {"hydrostatic"}).needed_if([](const Situation &s) {
     const bool own = s.loads() && s.program.presses != Presses::trials;
     return own && !s.scene.loading.hydrostatic() && !s.scene.loading.staged() && !s.rate_by_transits() &&

@@ -94,7 +94,7 @@ void declare_effects(Parameters &parameters, Scene &scene) {
   Words<int> laws{{"none", Bond::none}};
   for (const char *word : dem::BondLaws::words)
     laws.emplace_back(word, static_cast<int>(laws.size()) - 1);
-  section.entry<int>("Bond", scene.bond.law, laws, "What holds the grains together.");
+  section.entry<int>("Bond", scene.bond.law, laws, "What holds the grains together.").member("model.bond");
   Words<std::optional<dem::NormalContact>> contacts{{"none", std::nullopt}};
   for (const auto &[word, law] : dem::NormalContacts::words())
     contacts.emplace_back(word, law);

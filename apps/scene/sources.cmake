@@ -20,15 +20,13 @@ set(PLATEN_SCENE_SOURCES
   scene/parameter_writer.cc
   scene/checks.cc
   scene/checks_bond.cc
-  scene/checks_layers.cc
   scene/checks_loading.cc
   scene/checks_notes.cc
   scene/checks_scale.cc
-  scene/checks_sides.cc
   scene/checks_specimen.cc
-  scene/checks_stages.cc
   scene/quality.cc
   scene/scene.cc
+  scene/settings.cc
   scene/scene_bond.cc
   scene/scene_stages.cc
   scene/shipped.cc

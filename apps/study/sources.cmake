@@ -1,4 +1,4 @@
-# Sources of platen-study but for its main, apps/platen_study.cc; linked with platen_run.
+# Sources of platen-study; linked with platen_run.
 set(PLATEN_STUDY_SOURCES
   study/accuracy.cc
   study/accuracy_cases.cc

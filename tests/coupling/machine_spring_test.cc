@@ -250,7 +250,7 @@ TEST(machine_spring, what_does_not_go_with_it_is_refused) {
   settings.platens.elastic.reset();
   settings.platens.machine.mass = not_given;
   settings.platens.machine.damping = 0;
-  settings.loading.servo = true;
+  settings.loading.servo = true, settings.loading.top_stress = 1e6;
   refuses(settings, "platens.machine.damping", "servo");
   settings.loading.servo = false;
   settings.loading.cell.emplace().pressure = 1e6;

@@ -38,7 +38,7 @@ TEST(test_figures, pressing_all_sides_alike_consolidates) {
   PlatenTestSettings settings = hydrostatic(false);
   EXPECT_TRUE(PlatenTest(cylinder(), settings).program().stage(0).is_consolidation());
   for (const double axial : {5e6, 6e6}) {
-    settings.loading.stages.clear();
+    settings.loading.stages.clear(), settings.loading.cell->alone = false;
     StageSettings &stage = settings.loading.stages.emplace_back();
     SideAsk ask;
     ask.side = SideGroup::lateral, ask.ask = SideAsk::Ask::pressure, ask.value = 5e6;

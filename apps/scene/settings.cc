@@ -1,0 +1,78 @@
+#include "apps/scene/settings.h"
+
+#include <cmath>
+
+#include "base/portable.h"
+
+namespace platen::apps {
+namespace {
+
+constexpr double standard_gravity = 9.80665; // m/s^2
+
+// Those of sides that stay free are left out.
+coupling::PlatenSettings platen_settings(const Scene &scene) {
+  using coupling::Side;
+  Platens all = scene.platens;
+  if (!all.has(Side::left)) all.left.reset(), all.right.reset();
+  if (!all.has(Side::front)) all.front.reset(), all.back.reset();
+  if (!all.deformable) all.elastic.reset();
+  if (!scene.loading.bending()) all.span = not_given;
+  return all;
+}
+
+} // namespace
+
+dem::Shape specimen_shape(const Scene &scene) {
+  const SpecimenSection &specimen = scene.specimen;
+  const bool round = specimen.shape == SpecimenShape::cylinder || specimen.shape == SpecimenShape::disc ||
+                     (specimen.shape == SpecimenShape::bar && specimen.round());
+  return round ? dem::cylinder(specimen.radius, specimen.height)
+               : dem::box(specimen.width_x, specimen.width_y, specimen.height);
+}
+
+std::optional<dem::ContactSettings> contact_settings(const Scene &scene) {
+  if (!scene.effects.contact) return std::nullopt;
+  dem::ContactSettings to = scene.contact;
+  to.normal = *scene.effects.contact;
+  return to;
+}
+
+dem::ModelSettings model_without_files(const Scene &scene) {
+  dem::ModelSettings to = scene.model;
+  if (scene.effects.gravity) to.gravity = {0, 0, -standard_gravity};
+  to.bond = scene.bond.parameters();
+  if (scene.bond.size.reference > 0) {
+    const double share = scene.bond.size.share(scene.specimen);
+    to.bond = scene.bond.for_size(share).parameters();
+    to.bond_layout.modulus *= portable::pow(share, scene.bond.size.modulus_exponent);
+  }
+  to.bond_layout.by_range = scene.bond.bonds_by_range();
+  if (scene.bond.bonded() && scene.bond.scattered) {
+    to.strength_scatter = scene.bond.scatter;
+    to.strength_scatter->seed = scene.general.seed;
+  }
+  if (scene.phases.by != PhasesBy::none) to.phases = scene.phases.phases;
+  if (scene.phases.by == PhasesBy::file) to.phases->radius_above = not_given;
+  to.contact = contact_settings(scene);
+  return to;
+}
+
+coupling::PlatenTestSettings settings_without_files(const Scene &scene) {
+  coupling::PlatenTestSettings to;
+  to.model = model_without_files(scene);
+  to.ends = scene.specimen.ends;
+  to.end_layer = scene.specimen.end_layer;
+  to.seat = scene.specimen.seat;
+  to.net_section = scene.specimen.net_section;
+  to.platens = platen_settings(scene);
+  to.loading = scene.loading;
+  to.loading.tension = scene.loading.test == LoadingTest::tension;
+  to.loading.wall = scene.loading.walled();
+  to.loading.cell->alone = scene.loading.hydrostatic();
+  if (!scene.loading.sleeved()) to.loading.cell->sleeve.reset();
+  if (!scene.loading.confined()) to.loading.cell.reset();
+  to.time_step = scene.time_step;
+  return to;
+}
+
+} // namespace platen::apps

@@ -1,0 +1,269 @@
+// What cannot be of a test is found by its settings alone: one rule a row, and what lies beside it is
+// allowed.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+#include "coupling/boundary.h"
+#include "coupling/faults.h"
+
+namespace platen::coupling {
+namespace {
+
+using Settings = PlatenTestSettings;
+
+struct Row {
+  const char *member, *says; // "" and "": nothing is wrong
+  std::function<void(Settings &)> change;
+};
+
+// A cylinder that is compressed.
+Settings cylinder() {
+  Settings s;
+  s.model.bond = dem::ParallelBond::Parameters{};
+  s.loading.rate = 0.01, s.loading.target_strain = 0.01;
+  s.platens.thickness = 0.01;
+  return s;
+}
+
+// A bar along x on two strips.
+Settings bar() {
+  Settings s = cylinder();
+  s.ends = Ends::ground;
+  s.platens.span = 0.06, s.platens.strip_width = 0.005;
+  return s;
+}
+
+// A box between platens on four sides.
+Settings between_sides() {
+  Settings s = cylinder();
+  s.platens.left.emplace(), s.platens.right.emplace();
+  return s;
+}
+
+void press(Settings &s) {
+  s.loading.cell.emplace().pressure = 1e6;
+}
+
+void weaken(Settings &s, dem::Weakening::By by) {
+  s.platens.top.friction_static = 0.5, s.platens.top.friction_dynamic = 0.3;
+  s.platens.top.weakening.by = by;
+}
+
+void control_stress(Settings &s) {
+  s.loading.servo = true, s.loading.top_stress = 1e6;
+}
+
+void expect_faults(const std::vector<Row> &rows, const Settings &sound, const dem::Shape &shape) {
+  ASSERT_TRUE(faults(sound, &shape).empty()) << faults(sound, &shape).front().reason;
+  for (const Row &row : rows) {
+    Settings settings = sound;
+    row.change(settings);
+    const std::vector<Fault> found = faults(settings, &shape);
+    if (std::string(row.member).empty()) {
+      EXPECT_TRUE(found.empty()) << found.front().member << ' ' << found.front().reason;
+      continue;
+    }
+    ASSERT_EQ(found.size(), 1u) << row.member << ' ' << row.says;
+    EXPECT_EQ(found[0].member, row.member);
+    EXPECT_NE(found[0].reason.find(row.says), std::string::npos) << found[0].reason;
+    EXPECT_TRUE(found[0].reason.find("Allowed: ") != std::string::npos ||
+                found[0].reason.find("needs ") != std::string::npos ||
+                found[0].reason.find("is not below ") != std::string::npos ||
+                found[0].reason.find("does not ascend") != std::string::npos ||
+                found[0].reason.find("goes beyond ") != std::string::npos)
+        << found[0].reason;
+    EXPECT_THROW(require_no_fault(settings, shape), BadSetup);
+  }
+}
+
+TEST(Faults, friction_falls_while_it_slides) {
+  using By = dem::Weakening::By;
+  expect_faults(
+      {{"platens.top.friction_dynamic", "above the static friction, 0.3",
+        [](Settings &s) { s.platens.top.friction_static = 0.3, s.platens.top.friction_dynamic = 0.31; }},
+       {"", "", [](Settings &s) { s.platens.top.friction_static = s.platens.top.friction_dynamic = 0.3; }},
+       {"platens.bottom.friction_dynamic", "of the bottom platen",
+        [](Settings &s) { s.platens.bottom.friction_static = 0.3, s.platens.bottom.friction_dynamic = 0.4; }},
+       {"platens.top.friction_law", "slip_length` > 0", [](Settings &s) { weaken(s, By::slip); }},
+       {"platens.top.friction_law", "slip_velocity` > 0", [](Settings &s) { weaken(s, By::velocity); }},
+       {"", "", [](Settings &s) { weaken(s, By::slip), s.platens.top.weakening.slip_length = 1e-3; }},
+       {"platens.top.friction_law", "nothing to fall to",
+        [](Settings &s) {
+          weaken(s, By::slip), s.platens.top.weakening.slip_length = 1e-3;
+          s.platens.top.friction_dynamic = 0.5;
+        }}},
+      cylinder(), dem::cylinder(0.02, 0.04));
+}
+
+TEST(Faults, a_machine_drives_what_it_can) {
+  expect_faults(
+      {{"loading.tension", "cannot pull", [](Settings &s) { s.loading.tension = true; }},
+       {"", "", [](Settings &s) { s.loading.tension = s.platens.glued = true; }},
+       {"loading.servo", "`loading.top_stress` > 0", [](Settings &s) { s.loading.servo = true; }},
+       {"", "", control_stress},
+       {"loading.servo", "presses, but the test pulls",
+        [](Settings &s) { control_stress(s), s.loading.tension = s.platens.glued = true; }},
+       {"loading.rate_multiplier", "needs bonds",
+        [](Settings &s) { s.loading.rate_multiplier = 2, s.model.bond.reset(); }},
+       {"", "", [](Settings &s) { s.loading.rate_multiplier = 2; }},
+       {"loading.servo_gain", "too slow", [](Settings &s) { s.loading.servo_gain = 0.09; }},
+       {"", "", [](Settings &s) { s.loading.servo_gain = 0.1; }},
+       {"loading.wave_transits", "needs bonds",
+        [](Settings &s) { s.loading.rate = not_given, s.loading.wave_transits = 60, s.model.bond.reset(); }},
+       {"loading.wave_transits", "sets no speed",
+        [](Settings &s) {
+          s.loading.rate = not_given, s.loading.wave_transits = 60;
+          s.loading.tension = s.platens.glued = true;
+        }},
+       {"", "", [](Settings &s) { s.loading.rate = not_given, s.loading.wave_transits = 60; }},
+       {"loading.unload_at", "does not ascend",
+        [](Settings &s) {
+          s.loading.unload_at = {0.002, 0.001};
+        }},
+       {"loading.unload_at", "goes beyond",
+        [](Settings &s) {
+          s.loading.unload_at = {0.001, 0.01};
+        }},
+       {"", "",
+        [](Settings &s) {
+          s.loading.unload_at = {0.001, 0.0099};
+        }},
+       {"loading.unload_at", "driven by motion",
+        [](Settings &s) { control_stress(s), s.loading.unload_at = {0.001}; }}},
+      cylinder(), dem::cylinder(0.02, 0.04));
+}
+
+TEST(Faults, platens_that_yield_or_turn_move_with_inertia) {
+  const auto yields = [](Settings &s) { s.platens.elastic.emplace(); };
+  const auto spring = [](Settings &s) { s.platens.machine.stiffness = 1e8; };
+  expect_faults(
+      {{"", "", yields},
+       {"platens.elastic", "velocity verlet",
+        [&](Settings &s) { yields(s), s.model.scheme = dem::Scheme::tchamwa_wielgosz; }},
+       {"platens.elastic", "between rigid ends",
+        [&](Settings &s) { yields(s), s.loading.start_strain = 1e-3; }},
+       {"platens.elastic.pad_thickness", "leaves nothing",
+        [&](Settings &s) { yields(s), s.platens.elastic->pad_thickness = 0.01; }},
+       {"", "", [&](Settings &s) { yields(s), s.platens.elastic->pad_thickness = 0.0099; }},
+       {"platens.elastic.layers", "another way to say",
+        [&](Settings &s) {
+          yields(s), s.platens.elastic->pad_thickness = 1e-3, s.platens.elastic->layers.resize(1);
+        }},
+       {"platens.machine.stiffness", "without inertia",
+        [&](Settings &s) { spring(s), s.loading.start_strain = 1e-3; }},
+       {"platens.machine.damping", "lets a servo swing",
+        [&](Settings &s) { spring(s), control_stress(s), s.platens.machine.damping = 0; }},
+       {"", "", [&](Settings &s) { spring(s), s.platens.machine.damping = 0; }},
+       {"platens.spherical_seat", "do not turn",
+        [](Settings &s) { s.platens.spherical_seat = true, s.loading.start_strain = 1e-3; }},
+       {"platens.spherical_seat", "velocity verlet",
+        [](Settings &s) { s.platens.spherical_seat = true, s.model.scheme = dem::Scheme::tchamwa_wielgosz; }},
+       {"platens.contact", "ends are glued",
+        [](Settings &s) { s.platens.contact = PlatenContact::hertz, s.platens.glued = true; }}},
+      cylinder(), dem::cylinder(0.02, 0.04));
+}
+
+TEST(Faults, a_run_starts_strained_where_that_can_be_solved_for) {
+  Settings sound = cylinder();
+  sound.loading.start_strain = 1e-3;
+  expect_faults(
+      {{"loading.start_strain", "needs compression",
+        [](Settings &s) { s.loading.tension = s.platens.glued = true; }},
+       {"loading.start_strain", "needs compression", [](Settings &s) { s.loading.wall = true; }},
+       {"loading.start_strain", "`loading.cell`", press},
+       {"loading.start_strain", "`loading.servo` = motion", control_stress},
+       {"loading.start_strain", "needs bonds to solve for", [](Settings &s) { s.model.bond.reset(); }},
+       {"loading.start_strain", "without a memory",
+        [](Settings &s) { s.model.bond = dem::ElastoDamagePlastic::Parameters{}; }},
+       {"loading.start_strain", "gravity",
+        [](Settings &s) {
+          s.model.gravity = {0, 0, -9.8};
+        }},
+       {"loading.start_strain", "is not below `loading.target_strain`",
+        [](Settings &s) { s.loading.start_strain = 0.01; }},
+       {"loading.start_strain", "the first of `loading.unload_at`",
+        [](Settings &s) { s.loading.unload_at = {1e-3}; }},
+       {"loading.start_strain", "linear springs",
+        [](Settings &s) { s.platens.contact = PlatenContact::hertz; }}},
+      sound, dem::cylinder(0.02, 0.04));
+}
+
+TEST(Faults, a_bar_is_bent_by_three_strips) {
+  expect_faults(
+      {{"ends", "rock on its outermost spheres", [](Settings &s) { s.ends = Ends::as_packed; }},
+       {"platens.strip_width", "is bent by strips", [](Settings &s) { s.platens.strip_width = 0; }},
+       {"platens.glued", "three point bending", [](Settings &s) { s.platens.glued = true; }},
+       {"loading.servo", "three point bending", control_stress},
+       {"loading.cell", "three point bending", press},
+       {"model.bond", "no bar to bend", [](Settings &s) { s.model.bond.reset(); }},
+       {"platens.spherical_seat", "three point bending",
+        [](Settings &s) { s.platens.spherical_seat = true; }},
+       {"platens.span", "no gap between the lower strips",
+        [](Settings &s) { s.platens.span = s.platens.strip_width = 0.03; }},
+       {"platens.span", "too long for a bar of 0.08 m", [](Settings &s) { s.platens.span = 0.0751; }},
+       {"", "", [](Settings &s) { s.platens.span = 0.0749; }}},
+      bar(), dem::box(0.08, 0.02, 0.02));
+  const dem::Shape round = dem::cylinder(0.02, 0.08);
+  const std::vector<Fault> found = faults(bar(), &round);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].reason.find("rectangular section"), std::string::npos);
+  EXPECT_TRUE(faults(bar(), nullptr).empty()) << "a shape that is not known is not judged";
+}
+
+TEST(Faults, one_thing_presses_a_side) {
+  Settings pressed = cylinder();
+  press(pressed);
+  const auto sleeve = [](Settings &s) { s.loading.cell->sleeve.emplace(); };
+  expect_faults({{"loading.cell", "uniaxial strain", [](Settings &s) { s.loading.wall = true; }},
+                 {"loading.cell", "needs bonds", [](Settings &s) { s.model.bond.reset(); }},
+                 {"loading.servo", "does not go with `loading.cell`", control_stress},
+                 {"", "", sleeve},
+                 {"ModelSettings.scheme", "does not go with a sleeve",
+                  [&](Settings &s) { sleeve(s), s.model.scheme = dem::Scheme::tchamwa_wielgosz; }},
+                 {"sleeve.mass_scaling", "makes the sleeve lighter",
+                  [&](Settings &s) { sleeve(s), s.loading.cell->sleeve->mass_scaling = 0.99; }},
+                 {"", "", [&](Settings &s) { sleeve(s), s.loading.cell->sleeve->mass_scaling = 1; }},
+                 {"sleeve.elements_around", "too few for a tube",
+                  [&](Settings &s) { sleeve(s), s.loading.cell->sleeve->elements_around = 7; }},
+                 {"", "", [&](Settings &s) { sleeve(s), s.loading.cell->sleeve->elements_around = 8; }}},
+                pressed, dem::cylinder(0.02, 0.04));
+  sleeve(pressed);
+  const dem::Shape box = dem::box(0.02, 0.02, 0.04);
+  EXPECT_EQ(faults(pressed, &box).front().member, "loading.cell");
+  expect_faults(
+      {{"platens.left", "`loading.cell`", press},
+       {"platens.left", "`loading.wall`", [](Settings &s) { s.loading.wall = true; }},
+       {"platens.left", "`platens.glued`", [](Settings &s) { s.platens.glued = true; }},
+       {"loading.start_strain", "platens on the sides", [](Settings &s) { s.loading.start_strain = 1e-3; }}},
+      between_sides(), box);
+  const dem::Shape round = dem::cylinder(0.02, 0.04);
+  EXPECT_NE(faults(between_sides(), &round).front().reason.find("presses a flat side"), std::string::npos);
+}
+
+TEST(Faults, stages_take_the_place_of_what_else_is_asked) {
+  Settings sound = cylinder();
+  StageSettings stage;
+  stage.name = "stage 1";
+  SideAsk ask;
+  ask.side = SideGroup::axial, ask.ask = SideAsk::Ask::rate, ask.value = 0.01;
+  stage.asks = {ask};
+  stage.until = {{Until::Reached::strain, 0.01, SideGroup::axial}};
+  sound.loading.stages = {stage};
+  expect_faults(
+      {{"loading.servo", "does not go with stages", control_stress},
+       {"loading.start_strain", "does not go with stages",
+        [](Settings &s) { s.loading.start_strain = 1e-3; }},
+       {"loading.unload_at", "does not go with stages", [](Settings &s) { s.loading.unload_at = {1e-3}; }},
+       {"loading.cell.path", "does not go with stages",
+        [](Settings &s) { press(s), s.loading.cell->path = 0.1; }},
+       {"loading.tension", "does not go with stages",
+        [](Settings &s) { s.loading.tension = s.platens.glued = true; }},
+       {"loading.stage_1.until", "has no end", [](Settings &s) { s.loading.stages[0].until.clear(); }},
+       {"loading.stage_1.axial", "goes nowhere", [](Settings &s) { s.loading.stages[0].asks[0].value = 0; }}},
+      sound, dem::cylinder(0.02, 0.04));
+}
+
+} // namespace
+} // namespace platen::coupling
