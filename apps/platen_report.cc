@@ -4,7 +4,8 @@
 #include <iostream>
 #include <sstream>
 
-#include "apps/io/summary.h"
+#include "apps/output/summary.h"
+#include "apps/programs.h"
 #include "apps/report/accuracy_study.h"
 #include "apps/report/calibration.h"
 #include "apps/report/display.h"
@@ -15,7 +16,6 @@
 #include "apps/report/report.h"
 #include "apps/report/state_listing.h"
 #include "apps/report/target_study.h"
-#include "apps/programs.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/rank.h"
 #include "apps/scene/version.h"

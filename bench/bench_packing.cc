@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/machine.h"
-#include "apps/io/specimen_csv.h"
+#include "apps/output/machine.h"
+#include "apps/output/specimen_csv.h"
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "base/pi.h"

@@ -9,8 +9,8 @@
 #include <memory>
 #include <string>
 
-#include "apps/io/checkpoint_folder.h"
-#include "apps/io/machine.h"
+#include "apps/output/checkpoint_folder.h"
+#include "apps/output/machine.h"
 #include "apps/run/ranks.h"
 #include "apps/scene/rank.h"
 #include "base/clock.h"

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "apps/io/specimen_csv.h"
+#include "apps/output/specimen_csv.h"
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "coupling/static_press.h"

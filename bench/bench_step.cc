@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/specimen_csv.h"
+#include "apps/output/specimen_csv.h"
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "step_scene.h"

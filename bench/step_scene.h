@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/machine.h"
+#include "apps/output/machine.h"
 #include "coupling/platen_test.h"
 #include "dem/packing/specimen.h"
 #include "limit/idealised_loop.h"

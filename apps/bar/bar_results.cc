@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "apps/bar/bar_section.h"
-#include "apps/io/numbers.h"
+#include "apps/output/numbers.h"
 #include "apps/run/history.h"
 #include "apps/run/problem_setup.h"
 

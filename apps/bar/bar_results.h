@@ -9,7 +9,7 @@
 #include "apps/bar/bar_section.h"
 #include "apps/bar/dynamic_test.h"
 #include "apps/bar/static_test.h"
-#include "apps/io/csv_writer.h"
+#include "apps/output/csv_writer.h"
 #include "apps/run/app_output.h"
 
 namespace platen::apps {

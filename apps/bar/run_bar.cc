@@ -7,8 +7,8 @@
 
 #include "apps/bar/bar_results.h"
 #include "apps/bar/bar_section.h"
-#include "apps/io/progress.h"
-#include "apps/io/stop_signal.h"
+#include "apps/output/progress.h"
+#include "apps/output/stop_signal.h"
 #include "apps/run/app_output.h"
 #include "apps/run/model_setup.h"
 #include "apps/run/packing_cache.h"

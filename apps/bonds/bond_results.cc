@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "apps/bonds/pair_section.h"
-#include "apps/io/csv_writer.h"
-#include "apps/io/numbers.h"
+#include "apps/output/csv_writer.h"
+#include "apps/output/numbers.h"
 #include "dem/laws/normal_contact.h"
 
 namespace platen::apps {

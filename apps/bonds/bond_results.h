@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/bonds/run_bonds.h"
-#include "apps/io/summary.h"
+#include "apps/output/summary.h"
 
 namespace platen::apps {
 

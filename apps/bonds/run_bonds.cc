@@ -6,7 +6,7 @@
 
 #include "apps/bonds/bond_results.h"
 #include "apps/bonds/pair_section.h"
-#include "apps/io/specimen_csv.h"
+#include "apps/output/specimen_csv.h"
 
 namespace platen::apps {
 namespace {

@@ -1,7 +1,7 @@
 #include "apps/calibrate/abacus.h"
 #include "apps/calibrate/calibrate_section.h"
-#include "apps/io/numbers.h"
-#include "apps/io/seed_statistics.h"
+#include "apps/output/numbers.h"
+#include "apps/output/seed_statistics.h"
 
 namespace platen::apps {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/calibrate/trials.h"
-#include "apps/io/summary.h"
+#include "apps/output/summary.h"
 
 namespace platen::apps {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "apps/calibrate/calibrate_section.h"
-#include "apps/io/csv_writer.h"
+#include "apps/output/csv_writer.h"
 
 namespace platen::apps {
 namespace {

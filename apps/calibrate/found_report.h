@@ -2,8 +2,8 @@
 #pragma once
 
 #include "apps/calibrate/analysis.h"
-#include "apps/io/output_folder.h"
-#include "apps/io/summary.h"
+#include "apps/output/output_folder.h"
+#include "apps/output/summary.h"
 
 namespace platen::apps {
 

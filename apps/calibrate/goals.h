@@ -10,7 +10,7 @@
 #include "apps/calibrate/calibrate_section.h"
 #include "apps/calibrate/target_curve.h"
 #include "apps/calibrate/trial.h"
-#include "apps/io/seed_statistics.h"
+#include "apps/output/seed_statistics.h"
 
 namespace platen::apps {
 

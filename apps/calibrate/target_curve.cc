@@ -6,7 +6,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "apps/io/numbers.h"
+#include "apps/output/numbers.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/regular_file.h"
 #include "base/characters.h"

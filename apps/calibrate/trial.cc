@@ -9,7 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "apps/calibrate/calibrate_section.h"
-#include "apps/io/stop_signal.h"
+#include "apps/output/stop_signal.h"
 #include "apps/run/at_peak.h"
 #include "apps/run/controls.h"
 #include "apps/run/peak.h"

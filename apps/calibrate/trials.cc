@@ -9,11 +9,11 @@
 #include <sstream>
 
 #include "apps/calibrate/calibrate_section.h"
-#include "apps/io/file.h"
-#include "apps/io/numbers.h"
-#include "apps/io/sha256.h"
-#include "apps/io/specimen_csv.h"
-#include "apps/io/stop_signal.h"
+#include "apps/output/file.h"
+#include "apps/output/numbers.h"
+#include "apps/output/sha256.h"
+#include "apps/output/specimen_csv.h"
+#include "apps/output/stop_signal.h"
 #include "apps/run/packing_cache.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/errors.h"

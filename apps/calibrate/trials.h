@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "apps/calibrate/trial.h"
-#include "apps/io/csv_writer.h"
-#include "apps/io/output_folder.h"
-#include "apps/io/run_log.h"
+#include "apps/output/csv_writer.h"
+#include "apps/output/output_folder.h"
+#include "apps/output/run_log.h"
 
 namespace platen::apps {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "apps/io/seed_statistics.h"
+#include "apps/output/seed_statistics.h"
 #include "apps/report/chart.h"
 #include "apps/report/head.h"
 #include "apps/report/platen_study.h"
@@ -146,7 +146,6 @@ AccuracyResults read_accuracy(const std::filesystem::path &folder) {
     add_seconds(results, study.at("costs").at("wall_seconds"));
     add_prices(results, study.at("costs").at("prices"));
     add_failed_runs(study, results.remarks);
-    add_if_changed(folder / "study.json", results.remarks);
   } catch (const Json::exception &error) {
     throw InputError(file.string() + ": " + error.what());
   }

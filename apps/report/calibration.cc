@@ -167,7 +167,6 @@ void write_calibration_report(const fs::path &folder, const fs::path &pictures, 
   try {
     for (const Json &line : summary.at("missed"))
       remarks.push_back("not met together: " + line.get<std::string>());
-    add_if_changed(folder / "summary.json", remarks);
     for (const std::string &remark : remarks)
       out << remark << '\n';
     album.finish(title_of(folder), table_of_targets(summary), remarks, out);

@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/io/file.h"
+#include "apps/output/file.h"
 #include "apps/report/letters.h"
 
 namespace platen::apps::report {

@@ -21,7 +21,7 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/io/file.h"
+#include "apps/output/file.h"
 #include "apps/report/chart_svg.h"
 #include "apps/report/letters.h"
 

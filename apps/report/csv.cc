@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "apps/io/numbers.h"
+#include "apps/output/numbers.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/regular_file.h"
 

@@ -9,7 +9,7 @@
 #include <iterator>
 #include <vector>
 
-#include "apps/io/file.h"
+#include "apps/output/file.h"
 #include "apps/report/base64.h"
 #include "apps/scene/errors.h"
 

@@ -9,7 +9,7 @@
 #include <set>
 #include <tuple>
 
-#include "apps/io/seed_statistics.h"
+#include "apps/output/seed_statistics.h"
 #include "apps/report/chart.h"
 #include "apps/report/csv.h"
 #include "base/pi.h"

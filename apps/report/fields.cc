@@ -14,10 +14,10 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "apps/io/file.h"
-#include "apps/io/output_folder.h"
-#include "apps/io/pvd.h"
-#include "apps/io/vtu.h"
+#include "apps/output/file.h"
+#include "apps/output/output_folder.h"
+#include "apps/output/pvd.h"
+#include "apps/output/vtu.h"
 #include "base/pi.h"
 
 namespace platen::apps::report {
@@ -194,7 +194,8 @@ std::filesystem::path write_fields(const Run &run) {
   const dem::RegularGrid grid = grid_through(run, before_test);
   const OutputPaths paths(run.folder);
   create_folder(run.folder / "frames");
-  PvdSeries series(run.folder / "fields.pvd");
+  const std::filesystem::path pvd = run.folder / "fields.pvd";
+  PvdSeries series(pvd);
   int count = 0;
   for (const Frame &frame : run.specimen) {
     const std::string name =
@@ -203,7 +204,7 @@ std::filesystem::path write_fields(const Run &run) {
                 field_frame(run, frame.time, grid, reach_in_files * mean_radius(before_test)));
     series.append(frame.time, name);
   }
-  return series.path();
+  return pvd;
 }
 
 } // namespace platen::apps::report

@@ -7,14 +7,13 @@
 #include <vtkPointData.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLUnstructuredGridReader.h>
+#include <vtkXMLUtilities.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
 
-#include "apps/io/pvtu.h"
-#include "apps/io/vtk_xml.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps::report {
@@ -64,15 +63,6 @@ std::vector<double> point_field(vtkUnstructuredGrid &grid, const char *name, int
   return values;
 }
 
-// A file of pieces stands for these.
-void add_parts(Frame &frame, const std::filesystem::path &file) {
-  if (file.extension() != ".pvtu") return frame.parts.push_back(file);
-  if (!std::filesystem::exists(file)) throw InputError(file.string() + ": missing, though the .pvd lists it");
-  const std::vector<std::filesystem::path> pieces = pieces_of(file);
-  if (pieces.empty()) throw InputError(file.string() + ": damaged, it names no piece");
-  frame.parts.insert(frame.parts.end(), pieces.begin(), pieces.end());
-}
-
 } // namespace
 
 const Frame &nearest(const FrameSeries &series, double time) {
@@ -84,7 +74,8 @@ const Frame &nearest(const FrameSeries &series, double time) {
 FrameSeries read_pvd(const std::filesystem::path &file) {
   const SilencedVtk silenced;
   FrameSeries series;
-  const auto root = read_xml(file);
+  const auto root =
+      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(file.c_str()));
   vtkXMLDataElement *collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
   if (collection == nullptr) throw InputError(file.string() + ": not a whole ParaView collection (.pvd)");
 
@@ -97,7 +88,7 @@ FrameSeries read_pvd(const std::filesystem::path &file) {
       throw InputError(file.string() + ": an entry without file or timestep");
     Frame &frame = by_time[time];
     frame.time = time;
-    add_parts(frame, file.parent_path() / name);
+    frame.parts.push_back(file.parent_path() / name);
   }
   for (auto &[time, frame] : by_time)
     series.push_back(std::move(frame));

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/summary.h"
+#include "apps/output/summary.h"
 #include "apps/report/report.h"
 
 namespace platen::apps::report {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/summary.h"
+#include "apps/output/summary.h"
 #include "apps/report/chart.h"
 #include "apps/report/report.h"
 #include "dem/packing/specimen.h"

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <ostream>
 
-#include "apps/io/specimen_csv.h"
+#include "apps/output/specimen_csv.h"
 #include "apps/report/head.h"
 #include "apps/scene/errors.h"
 #include "base/pi.h"

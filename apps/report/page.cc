@@ -8,7 +8,7 @@
 #include <numeric>
 #include <ostream>
 
-#include "apps/io/file.h"
+#include "apps/output/file.h"
 #include "apps/report/embedded.h"
 #include "apps/scene/errors.h"
 

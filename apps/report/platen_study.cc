@@ -249,9 +249,7 @@ StudyResults read_study(const fs::path &folder) {
                      "accuracy and target, and of single runs (" +
                      (folder / "runs").string() + ")");
   try {
-    StudyResults results = results_of(study, folder);
-    add_if_changed(file, results.remarks);
-    return results;
+    return results_of(study, folder);
   } catch (const Json::exception &error) {
     throw InputError(file.string() + ": " + error.what());
   } catch (const std::out_of_range &error) {

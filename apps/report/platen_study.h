@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/seed_statistics.h"
+#include "apps/output/seed_statistics.h"
 #include "apps/report/report.h"
 
 namespace platen::apps::report {

@@ -26,10 +26,9 @@ namespace fs = std::filesystem;
 // eaten too.
 constexpr double post_peak_share = 0.8;
 
-Json read_summary_of(Run &run) {
+Json read_summary_of(const Run &run) {
   const ReadSummary read = read_summary(run.folder / "summary.json");
   if (!read.summary.is_object()) throw InputError((run.folder / "summary.json").string() + ": " + read.fault);
-  add_if_changed(run.folder / "summary.json", run.remarks);
   return read.summary;
 }
 
@@ -143,11 +142,6 @@ double number_of_scene(const fs::path &folder, const std::string &path, const st
   } catch (const ValueError &error) {
     throw InputError(scene.string() + ": " + path + " = " + text + " " + error.what());
   }
-}
-
-void add_if_changed(const fs::path &file, std::vector<std::string> &remarks) {
-  if (const ReadSummary read = read_summary(file); read.changed)
-    remarks.push_back(file.filename().string() + " " + read.fault + ", do not trust its figures");
 }
 
 std::vector<double> platen_stress(const CsvTable &history, int axis) {

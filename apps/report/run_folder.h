@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/summary.h"
+#include "apps/output/summary.h"
 #include "apps/report/csv.h"
 #include "apps/report/frames.h"
 
@@ -71,9 +71,6 @@ std::string scene_entry(const std::filesystem::path &scene, const std::string &p
 // where the text is no such number.
 double number_of_scene(const std::filesystem::path &folder, const std::string &path,
                        const std::string &si_unit);
-
-// A remark where summary.json or study.json is no longer as it was written (its checksum).
-void add_if_changed(const std::filesystem::path &file, std::vector<std::string> &remarks);
 
 // Reads history, summary, cracks and the lists of frames. Only history.csv must be there; what else is
 // missing becomes a remark. Throws InputError where the folder or the history is missing, or any file is

@@ -1,5 +1,5 @@
 # Sources of platen-report but for its main, apps/platen_report.cc, which also needs CLI11 and version_text()
-# (scene/version.cc). The sources need platen_io, nlohmann_json::nlohmann_json, X11::X11
+# (scene/version.cc). The sources need platen_output, nlohmann_json::nlohmann_json, X11::X11
 # (find_package(X11)) and these components of VTK:
 #   ChartsCore CommonColor CommonCore CommonDataModel FiltersCore FiltersGeneral FiltersSources IOCore IOImage IOXML IOXMLParser
 #   RenderingAnnotation RenderingContext2D RenderingContextOpenGL2 RenderingCore RenderingFreeType RenderingOpenGL2

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <ostream>
 
-#include "apps/io/checkpoint_folder.h"
-#include "apps/io/output_folder.h"
+#include "apps/output/checkpoint_folder.h"
+#include "apps/output/output_folder.h"
 
 namespace platen::apps::report {
 namespace {

@@ -131,7 +131,6 @@ TargetResults read_target(const std::filesystem::path &folder) {
       results.looks.push_back(look_of(looks[k], number_or_nan(costs.at("looks_core_seconds").at(k)), unit));
     add_remarks(results, target, costs);
     add_failed_runs(study, results.remarks);
-    add_if_changed(file, results.remarks);
   } catch (const Json::exception &error) {
     throw InputError(file.string() + ": " + error.what());
   }

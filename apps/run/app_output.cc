@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "apps/io/file.h"
-#include "apps/io/machine.h"
-#include "apps/io/sha256.h"
+#include "apps/output/file.h"
+#include "apps/output/machine.h"
+#include "apps/output/sha256.h"
 #include "apps/scene/checks.h"
 #include "apps/scene/expect.h"
 #include "apps/scene/parameters.h"
@@ -76,7 +76,8 @@ AppOutput::AppOutput(const CommandLine &command, const Scene &scene, bool from_c
   if (command.dry_run) return;
   input_sums_ = input_sums(scene);
   if (!command.resume || from_checkpoint) check_output_folder(paths.folder, use_, inputs_);
-  lock_ = lock_of_run(paths.folder, log);
+  std::error_code none;
+  if (std::filesystem::exists(paths.log(), none)) lock_ = lock_folder(paths.folder, patience_of_run, log);
   if (!command.resume) return;
   if (from_checkpoint)
     changes_ = require_same_physics(scene, paths);

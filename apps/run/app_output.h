@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/output_folder.h"
-#include "apps/io/run_log.h"
-#include "apps/io/summary.h"
+#include "apps/output/output_folder.h"
+#include "apps/output/run_log.h"
+#include "apps/output/summary.h"
 #include "apps/run/changed_scene.h"
 #include "apps/scene/command_line.h"
 #include "base/clock.h"
@@ -76,7 +76,7 @@ private:
   Json input_sums_ = Json::object();
   std::string scene_sum_;            // of scene.prm, once the folder is open
   std::vector<SceneChange> changes_; // of a run that is led on
-  std::unique_ptr<FolderLock> lock_;
+  std::unique_ptr<FileLock> lock_;   // of the folder
 };
 
 // Figures that tests without platens share with those between platens, SI; NaN: not measured.

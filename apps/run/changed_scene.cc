@@ -68,7 +68,8 @@ bool is_no_smaller_target(const SceneChange &change) {
 
 bool is_free(const SceneChange &change) {
   return std::count(free_entries.begin(), free_entries.end(), change.entry) > 0 ||
-         change.entry.rfind(expectations, 0) == 0;
+         change.entry.rfind(expectations, 0) == 0 ||
+         change.entry == "Output/Spheres in a piece"; // of earlier versions, without effect
 }
 
 [[noreturn]] void refuse_change(const Scene &scene, const SceneChange &change, const std::string &allowed) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/output_folder.h"
+#include "apps/output/output_folder.h"
 #include "apps/scene/scene.h"
 
 namespace platen::apps {

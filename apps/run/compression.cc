@@ -1,5 +1,5 @@
 #include "apps/run/compression.h"
-#include "apps/io/crack_discs.h"
+#include "apps/output/crack_discs.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "apps/io/stop_signal.h"
+#include "apps/output/stop_signal.h"
 #include "apps/run/compression_run.h"
 #include "apps/run/controls.h"
 #include "apps/run/estimate.h"

@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-#include "apps/io/checkpoint_folder.h"
+#include "apps/output/checkpoint_folder.h"
+#include "apps/output/crack_discs.h"
 #include "apps/run/compression_run.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/ranks.h"
@@ -37,10 +38,6 @@ void require_finite(const dem::Crack &c) {
         "try a smaller `time_step.safety` or `loading.rate`",
         c.particle_a, c.particle_b, shortest_text(c.time)));
 }
-
-const std::vector<std::string> crack_columns{"time_s",   "axial_strain", "x_m",       "y_m",     "z_m",
-                                             "nx",       "ny",           "nz",        "area_m2", "mode",
-                                             "energy_j", "particle_a",   "particle_b"};
 
 // Extent and shares of the specimen's ends that platens cover.
 std::string text_of_cover(const coupling::PlatenTest &test) {
@@ -116,12 +113,11 @@ std::string CompressionRun::description() const {
 }
 
 void CompressionRun::open_files() {
-  const auto in_a_piece = static_cast<std::size_t>(scene_.output.spheres_in_a_piece);
-  const bool beside = ranks_ == nullptr && output_.threads() > 1; // a run on one thread keeps to one core
+  const bool in_parallel = output_.threads() > 1; // a run on one thread uses one core
   if (!command_.resume) {
     history_.emplace(paths_.history(), history_names(test_.get()));
     if (scene_.model.crack_log) cracks_.emplace(paths_.cracks(), crack_columns);
-    if (scene_.output.fields) fields_.emplace(paths_.folder, in_a_piece, beside);
+    if (scene_.output.fields) fields_.emplace(paths_.folder, in_parallel);
     if (as_packed_) keep(*as_packed_);
     sample();
     if (fields_) fields_->write(*test_, results_.moves_with(*test_));
@@ -135,10 +131,10 @@ void CompressionRun::open_files() {
   if (results_.samples().empty()) checkpoint.fail("\"results/samples\" has no row, one at least is needed");
   if (marks.target_strain != scene_.loading.target_strain) test_->go_on();
   output_.lead_on();
-  reopen_history();
+  history_.emplace(paths_.history(), history_names(test_.get()), marks.history_bytes);
   if (scene_.model.crack_log) cracks_.emplace(paths_.cracks(), crack_columns, marks.cracks_bytes);
   if (scene_.output.fields) {
-    fields_.emplace(paths_.folder, in_a_piece, beside);
+    fields_.emplace(paths_.folder, in_parallel);
     fields_->resume(marks.last_frame, static_cast<int>(marks.frames));
   }
   earlier_seconds_ = marks.wall_seconds;
@@ -146,13 +142,9 @@ void CompressionRun::open_files() {
   log_.info("resumed at step {}, time {:.6g} s", test_->steps(), test_->time());
 }
 
-// Its rows are in the checkpoint, so that the file is written anew, with the columns of this version.
-void CompressionRun::reopen_history() {
-  WholeTable rows(paths_.history(), history_names(test_.get()));
-  for (const Sample &s : results_.samples())
-    rows.row(history_row(s, test_.get()));
-  rows.finish();
-  history_.emplace(paths_.history(), history_names(test_.get()), rows.bytes());
+void CompressionRun::require_tables(const FileMarks &marks) const {
+  require_resumable(paths_.history(), history_names(test_.get()), marks.history_bytes);
+  if (scene_.model.crack_log) require_resumable(paths_.cracks(), crack_columns, marks.cracks_bytes);
 }
 
 void CompressionRun::sample() {
@@ -184,9 +176,7 @@ void CompressionRun::checkpoint() {
   if (fields_) fields_->finish(); // or a run would resume after frames that are not there
   FileMarks marks;
   marks.history_bytes = history_->bytes();
-  marks.history_sum = history_->sum();
   marks.cracks_bytes = cracks_ ? cracks_->bytes() : 0;
-  marks.cracks_sum = cracks_ ? cracks_->sum() : "";
   marks.specimen_sum = specimen_sum_;
   marks.input_sums = output_.inputs().dump();
   marks.last_frame = fields_ ? fields_->last_time() : -1.0;

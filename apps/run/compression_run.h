@@ -7,10 +7,11 @@
 #include <string>
 #include <utility>
 
-#include "apps/io/csv_writer.h"
-#include "apps/io/progress.h"
+#include "apps/output/csv_writer.h"
+#include "apps/output/progress.h"
 #include "apps/run/app_output.h"
 #include "apps/run/fields.h"
+#include "apps/run/file_marks.h"
 #include "apps/run/history.h"
 #include "apps/run/results.h"
 #include "apps/run/specimen_check.h"
@@ -66,12 +67,12 @@ private:
   double steps_until_due(const Interval &interval, double automatic) const;
   long steps_unobserved() const;
   void open_files();
-  void reopen_history();
   void loop();
   void start_pressed();
   void require_length() const;
   dem::InstructionSet instruction_set_of_checkpoint();
-  void require_files_of_checkpoint();
+  FileMarks marks_of_checkpoint();
+  void require_tables(const FileMarks &marks) const;
   void sample();
   void keep(const Sample &s);
   std::string resuming_command(const std::string &but = "") const;

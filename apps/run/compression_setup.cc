@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "apps/io/checkpoint_folder.h"
-#include "apps/io/sha256.h"
-#include "apps/io/specimen_csv.h"
-#include "apps/io/stop_signal.h"
+#include "apps/output/checkpoint_folder.h"
+#include "apps/output/sha256.h"
+#include "apps/output/specimen_csv.h"
+#include "apps/output/stop_signal.h"
 #include "apps/run/compression_run.h"
 #include "apps/run/failure_summary.h"
 #include "apps/run/needs.h"
@@ -81,7 +81,7 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
     : command_(command), scene_(scene), output_(command, scene, true) {
   require_same_on_ranks(scene_text(scene, paths_.folder));
   const bool resumes = command.resume && !command.dry_run;
-  if (resumes) require_files_of_checkpoint();
+  const FileMarks marks = resumes ? marks_of_checkpoint() : FileMarks{};
   const bool packs = !resumes && scene.specimen.packing != PackingKind::file;
   if (packs) require_memory(as_pressed(specimen_shape(scene), scene, pressed));
   if (!counted_.empty()) return;
@@ -108,6 +108,7 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   require_length();
   setup_seconds_ = output_.seconds();
   if (command.dry_run) return;
+  if (resumes) require_tables(marks);
   if (exchange) {
     ranks_ = exchange.get();
     ranks_->largest(0); // nothing is written while another rank still reads what an earlier part has left
@@ -123,15 +124,17 @@ KeepPacking CompressionRun::keep_packing() {
   return apps::keep_packing(command_, scene_, !command_.dry_run && !this_rank().is_silent(), log_);
 }
 
-void CompressionRun::require_files_of_checkpoint() {
-  const FileMarks marks = load_marks(CheckpointReader(newest_whole_checkpoint(paths_.checkpoints()).path));
+// Of the newest checkpoint, if the files that the test is made from are still those of it.
+FileMarks CompressionRun::marks_of_checkpoint() {
+  FileMarks marks = load_marks(CheckpointReader(newest_whole_checkpoint(paths_.checkpoints()).path));
   if (!marks.changes.empty())
     throw CheckpointError(
         paths_.checkpoints().string() +
         ": error: the run was changed on its way by a script, which the scene does not tell: " +
         marks.changes + "; run the script anew");
-  require_same_files(marks, paths_, log_);
+  require_same_specimen(marks, paths_);
   require_same_inputs(marks, scene_, output_.inputs());
+  return marks;
 }
 
 void CompressionRun::require_memory(const dem::Shape &shape) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/summary.h"
+#include "apps/output/summary.h"
 #include "apps/run/results.h"
 #include "coupling/platen_test.h"
 

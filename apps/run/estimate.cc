@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "apps/io/machine.h"
-#include "apps/io/progress.h"
+#include "apps/output/machine.h"
+#include "apps/output/progress.h"
 
 namespace platen::apps {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/io/summary.h"
+#include "apps/output/summary.h"
 #include "base/pi.h"
 #include "coupling/program_of_test.h"
 

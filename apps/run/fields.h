@@ -1,12 +1,13 @@
-// Frames for ParaView: specimen, bonds, platens, sleeve and the contacts with them on one clock.
+// Frames for ParaView: specimen, bonds, platens, sleeve and the contacts with them at the same times.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
+#include <future>
+#include <map>
+#include <string>
 #include <vector>
 
-#include "apps/io/pvd.h"
-#include "apps/io/write_queue.h"
+#include "apps/output/pvd.h"
 #include "apps/run/frame.h"
 #include "coupling/platen_test.h"
 
@@ -14,34 +15,30 @@ namespace platen::apps {
 
 class FieldSeries {
 public:
-  // Frames land in `folder`/frames, the .pvd files and the script that shows them in `folder`. Specimens of
-  // more spheres than are in a piece are written in pieces, which ranks share out. Collective, and then not
-  // `beside` the computation, by a thread of their own.
-  FieldSeries(const std::filesystem::path &folder, std::size_t spheres_in_a_piece, bool beside = false);
+  // Frames are written to `folder`/frames, the .pvd files and the script that shows them to `folder`. With
+  // `in_parallel` another thread writes a frame while the computation goes on to the next one.
+  FieldSeries(const std::filesystem::path &folder, bool in_parallel);
 
   // Writes one frame of everything; a second call at the same time does nothing. `moves_with`
-  // (Results::moves_with) is left out where it is empty. Throws OutputError, beside the computation that of
-  // an earlier frame.
+  // (Results::moves_with) is left out if it is empty. Returns as soon as the frame before is on the disk.
+  // Throws OutputError, in parallel that of the frame before.
   void write(const coupling::PlatenTest &problem, const std::vector<int> &moves_with);
-  // Returns once all frames are on the disk. Throws OutputError.
-  void finish() { queue_.finish(); }
-  // Goes on after the frame of `last_time` (s), the number of frames written so far being `count`.
+  // Returns when all frames are on the disk. Throws OutputError.
+  void finish();
+  // Continues after the frame at `last_time` (s); `count` is the number of frames up to it.
   void resume(double last_time, int count);
   double last_time() const { return last_time_; } // s, of the last frame; -1 before the first
   int count() const { return count_; }
 
 private:
-  void store_spheres(const Frame &frame);
-  void store_bonds(const Frame &frame);
-  void store_boundaries(const Frame &frame);
-  void store_contacts(const Frame &frame);
+  void store(const Frame &frame);
 
   std::filesystem::path folder_;
-  std::size_t in_a_piece_;
-  PvdSeries specimen_, bonds_, platens_, sleeve_, contacts_;
+  bool in_parallel_;
+  std::map<std::string, PvdSeries> series_;
   double last_time_ = -1;
   int count_ = 0;
-  WriteQueue queue_; // the last member: what it does needs the others
+  std::future<void> writing_; // the last member: its thread uses the others until it is destroyed
 };
 
 } // namespace platen::apps

@@ -1,9 +1,13 @@
 #include "apps/run/frame.h"
 
+#include <array>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
-#include "apps/io/output_folder.h"
+#include "apps/output/file.h"
+#include "apps/output/output_folder.h"
+#include "apps/output/vtu.h"
 #include "coupling/program_of_test.h"
 #include "dem/measure/damage.h"
 #include "dem/measure/fragments.h"
@@ -24,6 +28,17 @@ FrameValues values_of(const coupling::PlatenTest &problem) {
     if (coupling::axis_of(side) == axis) stress += 0.5 * problem.stress(side);
   return {{"axial_strain", problem.closure_strain(axis)}, {"axial_stress", stress}};
 }
+
+// What the files of a frame share.
+struct FrameHead {
+  double time; // s
+  int number;
+  FrameValues values;
+  template <class Write>
+  FrameFile file(const char *series, Write write) const {
+    return {series, OutputPaths::frame_name(series, number), std::move(write)};
+  }
+};
 
 // How many others each particle is bonded to or touches now; bonds that have failed and stay in their rows as
 // contacts count where they press.
@@ -54,8 +69,8 @@ std::string with_scalars_named(std::string text) {
   return text.replace(at, made_up.size(), pressed ? "Scalars=\"contact_pressure\"" : "");
 }
 
-std::vector<Field> fields_of_spheres(const coupling::PlatenTest &problem,
-                                     const std::vector<int> &moves_with) {
+FrameFile spheres_of(const coupling::PlatenTest &problem, const std::vector<int> &moves_with,
+                     const FrameHead &head) {
   const dem::Model &model = problem.model;
   const dem::Particles &p = model.particles;
   const std::size_t n = p.size();
@@ -87,7 +102,7 @@ std::vector<Field> fields_of_spheres(const coupling::PlatenTest &problem,
       const double sine = norm(v);
       if (sine > 0) rotation[i] = (2 * std::atan2(sine, std::abs(q.w)) / sine) * v;
     }
-    fields.emplace_back("rotation", rotation);
+    fields.push_back({"rotation", rotation});
   }
   if (model.bonds) {
     const dem::BondCounts counts = dem::bond_counts(p, *model.bonds);
@@ -95,16 +110,19 @@ std::vector<Field> fields_of_spheres(const coupling::PlatenTest &problem,
     for (std::size_t i = 0; i < n; ++i)
       if (const int all = counts.intact[i] + counts.broken[i]; all > 0)
         damage[i] = static_cast<double>(counts.broken[i]) / all;
-    fields.emplace_back("intact_bonds", counts.intact);
-    fields.emplace_back("broken_bonds", counts.broken);
-    fields.emplace_back("damage", std::move(damage));
-    fields.emplace_back("fragment", dem::find_fragments(p, model.bonds.get()).of_particle);
+    fields.push_back({"intact_bonds", counts.intact});
+    fields.push_back({"broken_bonds", counts.broken});
+    fields.push_back({"damage", std::move(damage)});
+    fields.push_back({"fragment", dem::find_fragments(p, model.bonds.get()).of_particle});
   }
-  if (!moves_with.empty()) fields.emplace_back("moves_with", moves_with);
-  return fields;
+  if (!moves_with.empty()) fields.push_back({"moves_with", moves_with});
+  return head.file("specimen",
+                   [head, points = vectors(p.position), fields = std::move(fields)](const auto &path) {
+                     write_points(path, head.time, points, fields, head.values);
+                   });
 }
 
-void add_bonds(Frame &frame, const coupling::PlatenTest &problem) {
+FrameFile bonds_of(const coupling::PlatenTest &problem, const FrameHead &head) {
   const dem::Particles &p = problem.model.particles;
   const dem::Bonds &b = *problem.model.bonds;
   const std::size_t n = b.initial_count();
@@ -132,34 +150,38 @@ void add_bonds(Frame &frame, const coupling::PlatenTest &problem) {
     shear[record] = response.shear_force;
     force[record] = {response.force.x, response.force.y, response.force.z};
   }
-  frame.has_bonds = true;
-  frame.bonds = std::move(lines);
-  frame.of_bonds = {{"state", std::move(state)},
-                    {"damage", std::move(damage)},
-                    {"normal_force", std::move(normal)},
-                    {"shear_force", std::move(shear)},
-                    {"force", force},
-                    {"break_time", std::move(when)},
-                    {"particle_a", std::move(first)},
-                    {"particle_b", std::move(second)}};
+  std::vector<Field> fields{{"state", std::move(state)},
+                            {"damage", std::move(damage)},
+                            {"normal_force", std::move(normal)},
+                            {"shear_force", std::move(shear)},
+                            {"force", force},
+                            {"break_time", std::move(when)},
+                            {"particle_a", std::move(first)},
+                            {"particle_b", std::move(second)}};
+  return head.file("bonds", [head, points = vectors(p.position), lines = std::move(lines),
+                             fields = std::move(fields)](const auto &path) {
+    write_lines(path, head.time, points, lines, {}, fields, head.values);
+  });
 }
 
-void add_boundaries(Frame &frame, const coupling::PlatenTest &problem) {
+void add_boundaries(std::vector<FrameFile> &files, const coupling::PlatenTest &problem, int number) {
   for (const char *series : {"platens", "sleeve"}) {
     std::vector<const coupling::Boundary *> parts;
     for (const auto &boundary : problem.boundaries())
       if (boundary->series() == series) parts.push_back(boundary.get());
-    const int count = static_cast<int>(parts.size());
-    for (int part = 0; part < count; ++part) {
-      std::ostringstream text;
-      parts[static_cast<std::size_t>(part)]->write_vtu(text);
-      frame.boundaries.push_back({series, OutputPaths::frame_name(series, count * frame.number + part),
-                                  with_scalars_named(text.str())});
+    int index = static_cast<int>(parts.size()) * number;
+    for (const coupling::Boundary *part : parts) {
+      std::ostringstream vtu;
+      part->write_vtu(vtu);
+      files.push_back({series, OutputPaths::frame_name(series, index++),
+                       [text = with_scalars_named(vtu.str())](const std::filesystem::path &path) {
+                         write_text_aside(path, text);
+                       }});
     }
   }
 }
 
-void add_contacts(Frame &frame, const coupling::PlatenTest &problem) {
+FrameFile contacts_of(const coupling::PlatenTest &problem, const FrameHead &head) {
   std::vector<Vector3> points, normals, shears, forces;
   std::vector<double> normal_force, shear_force, slip;
   std::vector<int> sliding, particle;
@@ -175,29 +197,28 @@ void add_contacts(Frame &frame, const coupling::PlatenTest &problem) {
       sliding.push_back(c.sliding ? 1 : 0);
       particle.push_back(problem.model.particles.id[static_cast<std::size_t>(c.particle)]);
     }
-  frame.contact_points = std::move(points);
-  frame.of_contacts = {{"normal", normals},
-                       {"shear", shears},
-                       {"force", forces},
-                       {"normal_force", std::move(normal_force)},
-                       {"shear_force", std::move(shear_force)},
-                       {"slip", std::move(slip)},
-                       {"sliding", std::move(sliding)},
-                       {"particle", std::move(particle)}};
+  std::vector<Field> fields{{"normal", normals},
+                            {"shear", shears},
+                            {"force", forces},
+                            {"normal_force", std::move(normal_force)},
+                            {"shear_force", std::move(shear_force)},
+                            {"slip", std::move(slip)},
+                            {"sliding", std::move(sliding)},
+                            {"particle", std::move(particle)}};
+  return head.file("contacts",
+                   [head, points = std::move(points), fields = std::move(fields)](const auto &path) {
+                     write_points(path, head.time, points, fields, head.values);
+                   });
 }
 
 } // namespace
 
 Frame frame_of(const coupling::PlatenTest &problem, const std::vector<int> &moves_with, int number) {
-  Frame frame;
-  frame.time = problem.time();
-  frame.number = number;
-  frame.values = values_of(problem);
-  frame.points = vectors(problem.model.particles.position);
-  frame.of_spheres = fields_of_spheres(problem, moves_with);
-  if (problem.model.bonds) add_bonds(frame, problem);
-  add_boundaries(frame, problem);
-  add_contacts(frame, problem);
+  const FrameHead head{problem.time(), number, values_of(problem)};
+  Frame frame{head.time, {spheres_of(problem, moves_with, head)}};
+  if (problem.model.bonds) frame.files.push_back(bonds_of(problem, head));
+  add_boundaries(frame.files, problem, number);
+  frame.files.push_back(contacts_of(problem, head));
   return frame;
 }
 

@@ -1,34 +1,30 @@
-// All that a frame shows, as it is at one moment: to be written beside the computation.
+// A frame for ParaView as it is at one moment: its data are copied, so that it can be written in parallel
+// with the computation.
 #pragma once
 
-#include <array>
+#include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "apps/io/vtu.h"
 #include "coupling/platen_test.h"
 
 namespace platen::apps {
 
-struct Frame {
-  double time = 0; // s
-  int number = 0;
-  FrameValues values;
-  std::vector<Vector3> points; // centres of the spheres, m
-  std::vector<Field> of_spheres;
-  bool has_bonds = false;
-  std::vector<std::array<int, 2>> bonds; // first and second sphere
-  std::vector<Field> of_bonds;
-  // A platen or a sleeve, as many a series as the test has.
-  struct Part {
-    std::string series, file, vtu;
-  };
-  std::vector<Part> boundaries;
-  std::vector<Vector3> contact_points; // m
-  std::vector<Field> of_contacts;
+// One file of a frame. A series of platens has as many at one time as there are platens.
+struct FrameFile {
+  std::string series; // "specimen", "bonds", "platens", "sleeve", "contacts"
+  std::string name;   // "frames/specimen_000012.vtu"
+  std::function<void(const std::filesystem::path &)> write; // throws OutputError
 };
 
-// `moves_with` (Results::moves_with) is left out where it is empty.
+struct Frame {
+  double time = 0; // s
+  std::vector<FrameFile> files;
+};
+
+// `moves_with` (Results::moves_with) is left out if it is empty. On several ranks all have the whole
+// specimen, and the first one writes.
 Frame frame_of(const coupling::PlatenTest &problem, const std::vector<int> &moves_with, int number);
 
 } // namespace platen::apps

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/csv_writer.h"
+#include "apps/output/csv_writer.h"
 #include "base/archive.h"
 #include "coupling/platen_test.h"
 #include "dem/energy.h"

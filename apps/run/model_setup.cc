@@ -1,6 +1,6 @@
 #include "apps/run/model_setup.h"
 
-#include "apps/io/specimen_csv.h"
+#include "apps/output/specimen_csv.h"
 
 namespace platen::apps {
 

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <functional>
 
-#include "apps/io/machine.h"
-#include "apps/io/progress.h"
+#include "apps/output/machine.h"
+#include "apps/output/progress.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/parameters.h"

@@ -27,11 +27,6 @@ CommonSet common_instruction_set(dem::InstructionSet own, dem::Exchange *, bool)
 
 void require_same_on_ranks(const std::string &) {}
 
-void write_shared_out(std::size_t count, const std::function<void(std::size_t)> &write) {
-  for (std::size_t k = 0; k < count; ++k)
-    write(k);
-}
-
 void write_checkpoint_of_ranks(dem::Model &, const std::string &, const std::filesystem::path &,
                                std::uint64_t, const std::function<void(StateSink &)> &) {
   throw std::logic_error("a specimen is cut, but there are no ranks");

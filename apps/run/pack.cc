@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/csv_writer.h"
-#include "apps/io/machine.h"
-#include "apps/io/specimen_csv.h"
-#include "apps/io/vtu.h"
+#include "apps/output/csv_writer.h"
+#include "apps/output/machine.h"
+#include "apps/output/specimen_csv.h"
+#include "apps/output/vtu.h"
 #include "apps/run/app_output.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/version.h"

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "apps/io/run_log.h"
+#include "apps/output/run_log.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/command_line.h"
 

@@ -5,8 +5,8 @@
 #include <chrono>
 #include <thread>
 
-#include "apps/io/errors.h"
-#include "apps/io/rank_checkpoint.h"
+#include "apps/output/errors.h"
+#include "apps/output/rank_checkpoint.h"
 #include "apps/scene/rank.h"
 #include "base/parallel.h"
 #include "dist/agree.h"
@@ -65,22 +65,6 @@ void require_same_on_ranks(const std::string &text) {
     throw InputError(
         "error: ranks were started with different scenes or entries. Allowed: one command line, "
         "mpirun -n N platen-compress SCENE.prm.");
-}
-
-void write_shared_out(std::size_t count, const std::function<void(std::size_t)> &write) {
-  const Rank &rank = this_rank();
-  std::string error;
-  try {
-    const RankThatWrites not_silent;
-    for (auto k = static_cast<std::size_t>(rank.number); k < count; k += static_cast<std::size_t>(rank.of))
-      write(k);
-  } catch (const OutputError &e) {
-    error = e.what();
-    if (rank.of == 1) throw;
-  }
-  if (rank.of == 1) return;
-  if (const std::string first = dist::first_error(MPI_COMM_WORLD, error); !first.empty())
-    throw OutputError(first);
 }
 
 void write_checkpoint_of_ranks(dem::Model &specimen, const std::string &part,

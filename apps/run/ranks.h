@@ -1,7 +1,6 @@
 // The apps that run on several ranks.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -36,12 +35,8 @@ CommonSet common_instruction_set(dem::InstructionSet own, dem::Exchange *exchang
 // machines.
 void require_same_on_ranks(const std::string &text);
 
-// Calls write(k) for k below `count`, on one rank each: files that are alike whoever writes them. Returns
-// when all are there; where any fails all ranks throw the same OutputError. Collective.
-void write_shared_out(std::size_t count, const std::function<void(std::size_t)> &write);
-
-// write_checkpoint (apps/io/checkpoint_folder.h) of a run whose specimen is cut: all ranks write it, each its
-// own rows, after settle_state() of the experiment. `part` is the name of the specimen in the state that
+// write_checkpoint (apps/output/checkpoint_folder.h) of a run whose specimen is cut: all ranks write it, each
+// its own rows, after settle_state() of the experiment. `part` is the name of the specimen in the state that
 // `fill` adds on each rank.
 void write_checkpoint_of_ranks(dem::Model &specimen, const std::string &part,
                                const std::filesystem::path &folder, std::uint64_t step,

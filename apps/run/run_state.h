@@ -1,8 +1,8 @@
 // What a checkpoint of a run holds: everything that decides the next step and the next row.
 #pragma once
 
-#include "apps/io/checkpoint.h"
-#include "apps/io/run_log.h"
+#include "apps/output/checkpoint.h"
+#include "apps/output/run_log.h"
 #include "apps/run/fields.h"
 #include "apps/run/file_marks.h"
 #include "apps/run/results.h"

@@ -8,10 +8,10 @@
 #include <fstream>
 #include <optional>
 
-#include "apps/io/byte_lock.h"
-#include "apps/io/file.h"
-#include "apps/io/sha256.h"
-#include "apps/io/specimen_csv.h"
+#include "apps/output/file.h"
+#include "apps/output/file_lock.h"
+#include "apps/output/sha256.h"
+#include "apps/output/specimen_csv.h"
 #include "apps/scene/checks.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/version.h"
@@ -93,14 +93,9 @@ void write(const fs::path &file, const std::string &recipe, const dem::Specimen 
   const fs::path part = part_of_this_process(file);
   try {
     OutputFile to(part);
-    Sha256 sum;
-    const auto take = [&](std::string_view text) {
-      to.write(text);
-      sum.update(text);
-    };
-    take(file_start(recipe));
-    tell_specimen_csv(specimen, take);
-    to.write(fmt::format("{}{}\n", sum_words, sum.text()));
+    to.write(file_start(recipe));
+    write_specimen_csv(to, specimen);
+    to.write(fmt::format("{}{}\n", sum_words, sha256_of_file(part).value_or("")));
     to.close();
     make_current(part, file);
   } catch (...) {
@@ -123,11 +118,9 @@ void remove_parts(const fs::path &file) {
 }
 
 // The lock of a packing; null where another run has been at it for all our patience.
-std::unique_ptr<ByteLock> lock_of(const fs::path &file, RunLog &log) {
+std::unique_ptr<FileLock> lock_of(const fs::path &file, RunLog &log) {
   create_folder(file.parent_path());
-  const fs::path lock = file.parent_path() / lock_name;
-  OutputFile(lock, OutputFile::Mode::append).close();
-  return ByteLock::take(lock, lock_byte(file), 1, patience,
+  return FileLock::take(file.parent_path() / lock_name, {lock_byte(file), 1}, patience,
                         [&] { log.detail("waits for the run that packs {}", file.string()); });
 }
 
@@ -155,7 +148,7 @@ dem::Specimen shared_packing(const Scene &scene, const fs::path &folder,
     std::optional<dem::Specimen> found = read(file, recipe, log);
     return found ? std::move(*found) : pack();
   }
-  std::unique_ptr<ByteLock> lock;
+  std::unique_ptr<FileLock> lock;
   try {
     lock = lock_of(file, log);
     if (std::optional<dem::Specimen> found = read(file, recipe, log)) return std::move(*found);

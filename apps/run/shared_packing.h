@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "apps/io/run_log.h"
+#include "apps/output/run_log.h"
 #include "apps/scene/scene.h"
 #include "dem/packing/specimen.h"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/io/machine.h"
-#include "apps/io/specimen_csv.h"
+#include "apps/output/machine.h"
+#include "apps/output/specimen_csv.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/units.h"
 #include "base/pi.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "apps/io/machine.h"
+#include "apps/output/machine.h"
 #include "apps/run/app_output.h"
 #include "apps/run/at_peak.h"
 #include "apps/run/controls.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/summary.h"
+#include "apps/output/summary.h"
 #include "apps/run/results.h"
 #include "apps/scene/scene.h"
 #include "coupling/platen_test.h"

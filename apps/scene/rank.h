@@ -10,21 +10,11 @@ struct Rank {
   int number = 0, of = 1;
   int here = 1;                          // on this machine
   void (*end_all)(int status) = nullptr; // ends all of them; null: the launcher does
-  bool writes = false;                   // files of its own, just now
-  bool is_silent() const { return number > 0 && !writes; }
+  bool is_silent() const { return number > 0; }
 };
 
 // Of this process; set once, at the start of main.
 Rank &this_rank();
-
-// While it lives, this rank writes as the first one does.
-class RankThatWrites {
-public:
-  RankThatWrites() { this_rank().writes = true; }
-  ~RankThatWrites() { this_rank().writes = false; }
-  RankThatWrites(const RankThatWrites &) = delete;
-  RankThatWrites &operator=(const RankThatWrites &) = delete;
-};
 
 // Whether a launcher has started several processes of this program, which make one run if it runs on ranks.
 bool launched_with_others();

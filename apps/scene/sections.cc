@@ -52,10 +52,6 @@ void declare_output(Parameters &parameters, Output &output, Checkpoint &checkpoi
              "Frames for ParaView: steps or simulated time; 0: chosen by the app.")
       .unless("Output/Fields", {"off", "false", "no"});
   section.entry("Fields", output.fields, "Write frames for ParaView.");
-  section
-      .integer("Spheres in a piece", output.spheres_in_a_piece, 512, 1e9,
-               "Frames of more spheres are written in several files (.pvtu).")
-      .unless("Output/Fields", {"off", "false", "no"});
   section.number("Sound share", output.sound_share, between(0.01, 1),
                  "Share of its bonds that a sphere has kept to be of a cone by damage.");
   section.number(

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "apps/io/numbers.h"
+#include "apps/output/numbers.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/regular_file.h"
 #include "base/characters.h"

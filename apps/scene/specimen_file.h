@@ -1,4 +1,4 @@
-// Specimens and lists of ids from text files; apps/io/specimen_csv.h writes them.
+// Specimens and lists of ids from text files; apps/output/specimen_csv.h writes them.
 //   # shape: cylinder radius_m=0.025 height_m=0.1
 //   x_m,y_m,z_m,radius_m
 //   0.001,-0.0024,0.0013,0.0012

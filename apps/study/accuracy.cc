@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "apps/io/csv_writer.h"
+#include "apps/output/csv_writer.h"
 #include "apps/scene/usual_unit.h"
 #include "apps/study/tables.h"
 

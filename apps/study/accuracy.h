@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/seed_statistics.h"
-#include "apps/io/summary.h"
+#include "apps/output/seed_statistics.h"
+#include "apps/output/summary.h"
 #include "apps/study/cases.h"
 #include "apps/study/runs.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "apps/io/csv_writer.h"
+#include "apps/output/csv_writer.h"
 #include "apps/scene/surfaces.h"
 
 namespace platen::apps {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "apps/io/csv_writer.h"
-#include "apps/io/file.h"
-#include "apps/io/sha256.h"
+#include "apps/output/csv_writer.h"
+#include "apps/output/file.h"
+#include "apps/output/sha256.h"
 #include "apps/programs.h"
 #include "apps/run/app_output.h"
 #include "apps/run/changed_scene.h"
@@ -64,11 +64,11 @@ std::string line_of(const std::vector<CsvCell> &cells) {
 
 // What runs are called and what they change: no path, no machine.
 std::string sum_of_runs(const PlannedStudy &study) {
-  Sha256 sum;
+  std::string text;
   for (const StudyRun &run : study.runs)
-    sum.update(
-        fmt::format("{}\n{}\n{}\n", run.name, fmt::join(study.plan.cases[run.of].overrides, "\n"), run.seed));
-  return sum.text();
+    text +=
+        fmt::format("{}\n{}\n{}\n", run.name, fmt::join(study.plan.cases[run.of].overrides, "\n"), run.seed);
+  return sha256_of(text);
 }
 
 Json identity(const PlannedStudy &study) {

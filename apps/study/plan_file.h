@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/output_folder.h"
-#include "apps/io/run_log.h"
-#include "apps/io/summary.h"
+#include "apps/output/output_folder.h"
+#include "apps/output/run_log.h"
+#include "apps/output/summary.h"
 #include "apps/scene/scene.h"
 #include "apps/study/cases.h"
 #include "apps/study/runs.h"

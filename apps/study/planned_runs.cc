@@ -4,14 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <set>
 
-#include "apps/io/byte_lock.h"
-#include "apps/io/file.h"
-#include "apps/io/machine.h"
-#include "apps/io/stop_signal.h"
+#include "apps/output/file.h"
+#include "apps/output/machine.h"
+#include "apps/output/sha256.h"
+#include "apps/output/stop_signal.h"
 #include "apps/run/app_output.h"
 #include "apps/scene/version.h"
 #include "apps/study/study_results.h"
@@ -21,26 +20,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A run that was killed may still be writing its last checkpoint.
-constexpr std::chrono::seconds patience{5};
-// Bytes of plan.csv: 0 for who collects, K for who makes run K.
+// Runs of a plan and the process that collects them work at the same time: run K holds byte K of the file
+// that lock_folder holds as a whole, collecting holds byte 0.
 constexpr std::uint64_t byte_of_collecting = 0;
 
-// Runs of a plan, and who collects them, work side by side; who writes the folder anew, or makes the whole
-// study in one process, has it alone.
-std::unique_ptr<FolderLock> lock_folder(const PlannedStudy &study, FolderLock::Hold hold, RunLog &log) {
-  const fs::path &folder = study.paths.folder;
-  return std::make_unique<FolderLock>(
-      folder, patience, [&] { log.info("waits for a study at work in {}", folder.string()); }, hold);
-}
-
-std::unique_ptr<ByteLock> lock_bytes(const PlannedStudy &study, std::uint64_t first, std::uint64_t count,
-                                     const std::string &what, RunLog &log) {
-  std::unique_ptr<ByteLock> lock =
-      ByteLock::take(study.paths.plan(), first, count, patience, [&] { log.info("waits: {}", what); });
+std::unique_ptr<FileLock> lock_byte(const PlannedStudy &study, std::uint64_t byte, const std::string &what,
+                                    RunLog &log) {
+  std::unique_ptr<FileLock> lock =
+      FileLock::take(study.paths.log(), {byte, 1}, patience_of_run, [&] { log.info("waits: {}", what); });
   if (lock == nullptr)
-    throw FolderError(
-        fmt::format("{}: error: {}; wait for it, or stop it", study.paths.plan().string(), what));
+    throw FolderError(fmt::format("{}: error: {}, or the whole study is; wait for it, or stop it",
+                                  study.paths.folder.string(), what));
   return lock;
 }
 
@@ -85,7 +75,7 @@ std::string ranges_of(const std::vector<std::size_t> &numbers) {
 RunOutcome found(const PlannedStudy &study, std::size_t k) {
   const StudyRun &run = study.runs[k];
   const auto missing = [](const std::string &why) { return RunOutcome{false, false, why, {}, 0, true}; };
-  if (ByteLock::is_taken(study.paths.plan(), k + 1)) return missing("at work");
+  if (FileLock::is_taken(study.paths.log(), k + 1)) return missing("at work");
   Left left = left_by(run);
   if (left.summary) return RunOutcome{true, true, "", std::move(*left.summary), 0, false};
   if (!left.fault.empty()) return missing(left.fault);
@@ -119,10 +109,7 @@ int plan_runs(const CommandLine &command, const PlannedStudy &study, RunLog &log
   const FolderUse use = command.overwrite ? FolderUse::overwrite : FolderUse::fresh;
   if (!repairs) check_output_folder(paths.folder, use, input_files(study.scene));
   create_folder(paths.folder);
-  const std::unique_ptr<FolderLock> lock = lock_folder(study, FolderLock::Hold::alone, log);
-  std::unique_ptr<ByteLock> runs; // on other machines too
-  if (fs::is_regular_file(paths.plan(), none))
-    runs = lock_bytes(study, 0, ByteLock::to_the_end, "runs of the plan are at work", log);
+  const std::unique_ptr<FileLock> lock = lock_folder(paths.folder, patience_of_run, log);
   if (!repairs) {
     clear_runs(paths, command.overwrite, input_files(study.scene));
     open_output_folder(paths.folder, use, input_files(study.scene));
@@ -138,10 +125,9 @@ int plan_runs(const CommandLine &command, const PlannedStudy &study, RunLog &log
 int make_planned_run(const CommandLine &command, const PlannedStudy &study, RunLog &log) {
   require_plan(study);
   StudyRun run = run_of_number(study, command.run);
-  const std::unique_ptr<FolderLock> folder = lock_folder(study, FolderLock::Hold::shared, log);
-  const std::unique_ptr<ByteLock> lock =
-      lock_bytes(study, static_cast<std::uint64_t>(command.run), 1,
-                 fmt::format("run {} of the plan, {}, is at work already", command.run, run.name), log);
+  const std::unique_ptr<FileLock> lock =
+      lock_byte(study, static_cast<std::uint64_t>(command.run),
+                fmt::format("run {} of the plan, {}, is at work already", command.run, run.name), log);
   catch_stop_signals();
   run.may_go_on = !record_of(study, run).empty();
   const fs::path record = study.paths.run_record(run.name);
@@ -167,9 +153,8 @@ int make_planned_run(const CommandLine &command, const PlannedStudy &study, RunL
 
 int collect_runs(const CommandLine &command, const PlannedStudy &study, RunLog &log) {
   require_plan(study);
-  const std::unique_ptr<FolderLock> folder = lock_folder(study, FolderLock::Hold::shared, log);
-  const std::unique_ptr<ByteLock> lock =
-      lock_bytes(study, byte_of_collecting, 1, "its runs are being collected", log);
+  const std::unique_ptr<FileLock> lock =
+      lock_byte(study, byte_of_collecting, "its runs are being collected", log);
   log.open(study.paths.log(), true, {version_text(), command.text, 1});
   StudyResults results(study.scene, study.plan, study.runs, study.paths, log);
   std::vector<std::size_t> missing;

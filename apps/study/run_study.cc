@@ -13,12 +13,12 @@
 #include <memory>
 #include <thread>
 
-#include "apps/io/file.h"
-#include "apps/io/machine.h"
-#include "apps/io/output_folder.h"
-#include "apps/io/run_log.h"
-#include "apps/io/stop_signal.h"
-#include "apps/io/summary.h"
+#include "apps/output/file.h"
+#include "apps/output/machine.h"
+#include "apps/output/output_folder.h"
+#include "apps/output/run_log.h"
+#include "apps/output/stop_signal.h"
+#include "apps/output/summary.h"
 #include "apps/run/app_output.h"
 #include "apps/scene/values.h"
 #include "apps/scene/version.h"
@@ -76,7 +76,7 @@ private:
   StudyPlan plan_;
   Clock::time_point start_ = Clock::now();
   OutputPaths paths_;
-  std::unique_ptr<FolderLock> lock_;
+  std::unique_ptr<FileLock> lock_; // of the folder
   std::vector<StudyRun> runs_;
   RunLog log_;
 };
@@ -145,10 +145,8 @@ void StudyApp::open_anew() {
 }
 
 void StudyApp::open() {
-  if (fs::is_directory(paths_.folder))
-    lock_ = std::make_unique<FolderLock>(paths_.folder, patience_of_study, [&] {
-      log_.info("waits for runs of an earlier study in {}", paths_.folder.string());
-    });
+  std::error_code none;
+  if (fs::exists(paths_.log(), none)) lock_ = lock_folder(paths_.folder, patience_of_study, log_);
   if (command_.resume) {
     require_same_study();
     if (targets()) write_text_aside(paths_.scene(), scene_text(scene_, paths_.folder));

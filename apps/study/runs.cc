@@ -12,9 +12,9 @@
 #include <system_error>
 #include <thread>
 
-#include "apps/io/numbers.h"
-#include "apps/io/sha256.h"
-#include "apps/io/stop_signal.h"
+#include "apps/output/numbers.h"
+#include "apps/output/sha256.h"
+#include "apps/output/stop_signal.h"
 #include "apps/programs.h"
 #include "apps/run/app_output.h"
 #include "apps/run/compression.h"
@@ -291,6 +291,7 @@ void clear_runs(const OutputPaths &paths, bool overwrite, const std::vector<fs::
                       "folder with --output, or replace them with --overwrite",
                       paths.folder.string(), entry.path().filename().string()));
     open_output_folder(entry.path(), FolderUse::overwrite, inputs);
+    fs::remove(OutputPaths(entry.path()).log(), none);
     fs::remove(entry.path(), none); // only where nothing of the user's is left in it
   }
 }

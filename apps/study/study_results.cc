@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/io/sha256.h"
+#include "apps/output/sha256.h"
 #include "apps/run/app_output.h"
 #include "apps/run/problem_setup.h"
 #include "apps/scene/expect.h"

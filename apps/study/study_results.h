@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/output_folder.h"
-#include "apps/io/run_log.h"
+#include "apps/output/output_folder.h"
+#include "apps/output/run_log.h"
 #include "apps/study/accuracy.h"
 #include "apps/study/cases.h"
 #include "apps/study/runs.h"

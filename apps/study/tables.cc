@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "apps/io/numbers.h"
+#include "apps/output/numbers.h"
 
 namespace platen::apps {
 namespace {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/csv_writer.h"
-#include "apps/io/output_folder.h"
-#include "apps/io/seed_statistics.h"
-#include "apps/io/summary.h"
+#include "apps/output/csv_writer.h"
+#include "apps/output/output_folder.h"
+#include "apps/output/seed_statistics.h"
+#include "apps/output/summary.h"
 #include "apps/study/cases.h"
 #include "apps/study/comparisons.h"
 #include "apps/study/runs.h"

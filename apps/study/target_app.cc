@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "apps/io/sha256.h"
+#include "apps/output/sha256.h"
 #include "apps/run/app_output.h"
 #include "apps/run/problem_setup.h"
 #include "apps/scene/shell.h"

@@ -1,7 +1,7 @@
 // A study of a target as platen-study carries it out.
 #pragma once
 
-#include "apps/io/run_log.h"
+#include "apps/output/run_log.h"
 #include "apps/study/target_study.h"
 
 namespace platen::apps {

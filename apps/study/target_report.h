@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "apps/io/summary.h"
+#include "apps/output/summary.h"
 #include "apps/study/target_study.h"
 
 namespace platen::apps {

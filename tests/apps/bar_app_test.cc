@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "apps/io_folder.h"
 #include "apps/program.h"
 #include "apps/scene/scene.h"
+#include "apps/scratch_folder.h"
 #include "base/pi.h"
 
 namespace platen::apps::testing {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/io_folder.h"
 #include "apps/program.h"
+#include "apps/scratch_folder.h"
 #include "coupling/platen_test.h"
 #include "coupling/static_press.h"
 #include "dem/packing/growth.h"

@@ -15,8 +15,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/io/sha256.h"
-#include "apps/io/stop_signal.h"
+#include "apps/output/sha256.h"
+#include "apps/output/stop_signal.h"
 #include "apps/program.h"
 #include "apps/programs.h"
 #include "apps/scene/errors.h"

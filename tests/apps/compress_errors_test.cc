@@ -10,8 +10,8 @@
 #include <chrono>
 #include <thread>
 
-#include "apps/io_folder.h"
 #include "apps/program.h"
+#include "apps/scratch_folder.h"
 #include "measured.h"
 
 namespace platen::apps::testing {

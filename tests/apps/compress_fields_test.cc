@@ -15,8 +15,8 @@
 #include <regex>
 #include <set>
 
-#include "apps/io_folder.h"
 #include "apps/program.h"
+#include "apps/scratch_folder.h"
 
 namespace platen::apps {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "apps/io_folder.h"
 #include "apps/program.h"
+#include "apps/scratch_folder.h"
 
 namespace platen::apps::testing {
 namespace {

@@ -7,9 +7,9 @@
 #include <cstring>
 #include <limits>
 
-#include "apps/io/checkpoint_folder.h"
-#include "apps/io_folder.h"
+#include "apps/output/checkpoint_folder.h"
 #include "apps/program.h"
+#include "apps/scratch_folder.h"
 
 namespace platen::apps::testing {
 namespace {

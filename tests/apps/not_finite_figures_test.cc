@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/summary.h"
+#include "apps/output/summary.h"
 #include "apps/programs.h"
 #include "apps/run/history.h"
 #include "apps/run/problem_setup.h"

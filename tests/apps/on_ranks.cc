@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "apps/io/checkpoint_folder.h"
+#include "apps/output/checkpoint_folder.h"
 
 namespace platen::apps::testing {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/io_folder.h"
 #include "apps/program.h"
+#include "apps/scratch_folder.h"
 
 namespace platen::apps::testing {
 

@@ -12,7 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/io/specimen_csv.h"
+#include "apps/output/specimen_csv.h"
 #include "apps/programs.h"
 #include "apps/run/pack.h"
 #include "apps/run/specimen_setup.h"

@@ -16,7 +16,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "apps/io_folder.h"
+#include "apps/scratch_folder.h"
 
 namespace platen::apps::testing {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <set>
 
-#include "apps/io/checkpoint.h"
-#include "apps/io_folder.h"
+#include "apps/output/checkpoint.h"
 #include "apps/program.h"
+#include "apps/scratch_folder.h"
 #include "tests/same_state.h"
 
 namespace platen::apps::testing {

@@ -132,14 +132,17 @@ TEST_F(BadDays, a_file_that_is_removed_or_cannot_grow_ends_all_once_with_status_
     outcome.status = disturb(on(2, crush(name)), name, 18, act);
     outcome.error = said();
     expect_told_once(outcome, 4, part);
-    expect_resumes(name, 1);
   };
   failing("removed", "error: removed/history.csv: has been removed",
           [&](Program &) { fs::remove(folder_ / "removed/history.csv"); });
+  const Outcome lost = run(crush("removed", {"--resume"}));
+  EXPECT_EQ(lost.status, 2);
+  EXPECT_TRUE(contains(lost.error, "history.csv: error: is missing")) << lost.error;
   failing("full", ": cannot be written: File too large", [&](Program &program) {
     const rlimit few{1000, 1000};
     ASSERT_EQ(prlimit(process_of_rank(program.id(), 0), RLIMIT_FSIZE, &few, nullptr), 0);
   });
+  expect_resumes("full", 1);
 }
 
 TEST_F(BadDays, a_rank_that_is_killed_ends_all_and_the_run_resumes_on_any_number_of_ranks) {

@@ -40,18 +40,6 @@ TEST_F(Ranks, a_test_that_ends_at_a_share_of_its_peak_ends_in_the_same_bytes) {
   EXPECT_EQ(unlike("one", "two"), "");
 }
 
-// Which piece a rank writes must not show; nor a frame that was in one piece before.
-TEST_F(Ranks, frames_in_pieces_are_the_same_files) {
-  const std::vector<std::string> in_pieces{"-s", "Output/Spheres in a piece = 512", "-s",
-                                           "Loading/Target strain = 0.003"};
-  run_whole("one", in_pieces);
-  EXPECT_TRUE(fs::exists(folder_ / "one/frames/specimen_000000.pvtu"));
-  EXPECT_TRUE(fs::exists(folder_ / "one/frames/bonds_000000_0001.vtu"));
-  EXPECT_FALSE(fs::exists(folder_ / "one/frames/specimen_000000.vtu"));
-  run_on(3, "three", in_pieces);
-  EXPECT_EQ(unlike("one", "three"), "");
-}
-
 TEST_F(Ranks, elastic_platens_and_a_sleeve_change_no_byte) {
   const std::vector<std::string> around{"-s", "Platens/Kind = deformable",
                                         "-s", "Loading/Confinement = sleeve",

@@ -15,7 +15,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "apps/io/file.h"
+#include "apps/output/file.h"
 #include "apps/report/embedded.h"
 #include "apps/report_example.h"
 #include "apps/report_folder.h"

@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "apps/io/pvd.h"
-#include "apps/io/pvtu.h"
 #include "apps/report/csv.h"
 #include "apps/report/frames.h"
 #include "apps/report/other_results.h"
@@ -93,42 +91,6 @@ TEST(ReportReading, spheres_come_back_with_their_places_before_the_test) {
               0.05 * 0.0005); // the uppermost sphere nearly follows the platen
 }
 
-TEST(ReportReading, a_frame_in_pieces_is_one_specimen) {
-  const TestFolder folder;
-  const std::filesystem::path pvtu = folder / "specimen_000000.pvtu";
-  std::vector<Vector3> points;
-  std::vector<double> radius;
-  std::vector<int> id;
-  for (int k = 0; k < 1100; ++k) {
-    points.push_back({0.01 * k, 0, 1});
-    radius.push_back(1e-3 * (k + 1));
-    id.push_back(2 * k);
-  }
-  const std::vector<int> none(points.size(), 0);
-  const std::vector<Field> fields{{"radius", radius},
-                                  {"displacement", std::vector<Vector3>(points.size())},
-                                  {"intact_bonds", none},
-                                  {"broken_bonds", none},
-                                  {"id", id}};
-  const Pieces pieces{points.size(), 512};
-  for (std::size_t piece = 0; piece < pieces.count(); ++piece)
-    write_piece_of_points(pvtu, 0, points, fields, {}, pieces, piece);
-  write_pvtu(pvtu, 0, fields, {}, {}, pieces.count());
-  PvdSeries(folder / "specimen.pvd").append(0, "specimen_000000.pvtu");
-  const Spheres spheres = read_spheres(read_pvd(folder / "specimen.pvd").front());
-  ASSERT_EQ(spheres.size(), points.size());
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    ASSERT_EQ(spheres.position[k][0], points[k].x) << k;
-    ASSERT_EQ(spheres.radius[k], radius[k]);
-    ASSERT_EQ(spheres.id[k], id[k]);
-  }
-  std::filesystem::remove(folder / "specimen_000000_0001.vtu");
-  EXPECT_TRUE(holds(complaint([&] { read_spheres(read_pvd(folder / "specimen.pvd").front()); }),
-                    "specimen_000000_0001.vtu: missing"));
-  std::filesystem::remove(pvtu);
-  EXPECT_TRUE(holds(complaint([&] { read_pvd(folder / "specimen.pvd"); }), "specimen_000000.pvtu: missing"));
-}
-
 TEST(ReportReading, a_cut_off_frame_is_refused_by_name) {
   const TestFolder folder;
   write_example(folder.path(), {});
@@ -156,22 +118,6 @@ TEST(ReportReading, a_damaged_list_or_summary_is_refused_by_name) {
   EXPECT_TRUE(holds(complaint([&] { read_run(folder.path()); }), "summary.json"));
 }
 
-TEST(ReportReading, figures_that_were_changed_are_not_to_be_trusted) {
-  const TestFolder folder;
-  write_example(folder.path(), {});
-  const std::filesystem::path file = folder / "summary.json";
-  write_summary(file, Json::parse(text_of(file)));
-  EXPECT_TRUE(read_run(folder.path()).remarks.empty());
-  std::string text = text_of(file);
-  folder.write("summary.json", text.replace(text.find("0.0025"), 6, "0.0035"));
-  ASSERT_EQ(read_run(folder.path()).remarks.size(), 1u);
-  EXPECT_EQ(
-      read_run(folder.path()).remarks[0],
-      "summary.json has been changed since it was written: its checksum does not hold, do not trust its "
-      "figures");
-}
-
-// A pipe that nobody writes into would keep the program waiting for ever.
 TEST(ReportReading, pipes_and_folders_under_the_names_of_files_are_refused) {
   for (const char *name : {"history.csv", "summary.json", "cracks.csv", "specimen.pvd", "bonds.pvd"}) {
     const TestFolder folder;

@@ -4,7 +4,7 @@
 #include <regex>
 #include <sstream>
 
-#include "apps/io/checkpoint_folder.h"
+#include "apps/output/checkpoint_folder.h"
 #include "apps/report/state_listing.h"
 #include "apps/report_folder.h"
 

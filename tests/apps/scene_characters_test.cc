@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "apps/io/specimen_csv.h"
+#include "apps/output/specimen_csv.h"
 #include "apps/programs.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/scene.h"

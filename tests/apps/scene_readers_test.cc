@@ -4,12 +4,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "apps/io_folder.h"
 #include "apps/program.h"
 #include "apps/programs.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/scene.h"
+#include "apps/scratch_folder.h"
 
 namespace platen::apps::testing {
 namespace {
@@ -69,9 +69,8 @@ protected:
     std::map<std::string, std::string> all = results_in(folder_ / in);
     all.erase("scene.prm");
     nlohmann::json summary = summary_in(folder_ / in);
-    for (const char *cost :
-         {"wall_seconds", "setup_seconds", "particle_steps_per_second", "stage_seconds", "peak_memory_bytes",
-          "cores", "seconds", "checksum", "scene_sha256", "overridden"})
+    for (const char *cost : {"wall_seconds", "setup_seconds", "particle_steps_per_second", "stage_seconds",
+                             "peak_memory_bytes", "cores", "seconds", "scene_sha256", "overridden"})
       summary.erase(cost);
     all["summary.json"] = summary.dump(1);
     return all;

@@ -11,6 +11,7 @@
 #include "apps/scene/parameters.h"
 #include "apps/scene/scene.h"
 #include "apps/scene/surfaces.h"
+#include "apps/scratch_folder.h"
 
 namespace platen::apps {
 namespace {

@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <map>
 
-#include "apps/io/byte_lock.h"
-#include "apps/io/sha256.h"
+#include "apps/output/file_lock.h"
+#include "apps/output/sha256.h"
 #include "apps/run/packing_cache.h"
 #include "apps/run/shared_packing.h"
 #include "apps/study_runs.h"
@@ -133,7 +133,7 @@ TEST_F(SharedPacking, is_made_once_by_runs_that_want_it_at_once_and_tidied) {
   const std::uint64_t byte = std::stoull(file.stem().string().substr(0, 8), nullptr, 16);
   const pid_t holder = fork();
   if (holder == 0) {
-    const auto lock = ByteLock::take(folder_ / "kept/in_use", byte, 1, std::chrono::milliseconds(0), [] {});
+    const auto lock = FileLock::take(folder_ / "kept/in_use", {byte, 1}, std::chrono::milliseconds(0), [] {});
     if (lock != nullptr && lock->holds() && write(ready[1], "1", 1) == 1) pause();
     _exit(1);
   }

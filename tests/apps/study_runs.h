@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "apps/io_folder.h"
 #include "apps/program.h"
+#include "apps/scratch_folder.h"
 
 namespace platen::apps::testing {
 

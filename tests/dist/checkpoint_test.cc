@@ -9,9 +9,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "apps/io/checkpoint.h"
-#include "apps/io/checkpoint_folder.h"
-#include "apps/io/rank_checkpoint.h"
+#include "apps/output/checkpoint.h"
+#include "apps/output/checkpoint_folder.h"
+#include "apps/output/rank_checkpoint.h"
 #include "apps/scene/rank.h"
 #include "dist/ranks.h"
 #include "tests/dist/cracking_block.h"

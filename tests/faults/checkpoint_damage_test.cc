@@ -3,9 +3,9 @@
 
 #include <random>
 
-#include "apps/io/checkpoint_folder.h"
-#include "apps/io_folder.h"
+#include "apps/output/checkpoint_folder.h"
 #include "apps/program.h"
+#include "apps/scratch_folder.h"
 #include "measured.h"
 
 namespace platen::apps::testing {

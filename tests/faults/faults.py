@@ -20,7 +20,7 @@ PLATENS = {
                "Sleeve/Thickness = 1 mm", "Loading/Target strain = 0.004"],
 }
 COSTS = ["threads", "wall_seconds", "setup_seconds", "particle_steps_per_second", "stage_seconds", "peak_memory_bytes",
-         "bytes_in_columns_and_search", "trials", "checksum"]
+         "bytes_in_columns_and_search", "trials"]
 
 
 def clang():

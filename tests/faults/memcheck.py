@@ -42,7 +42,7 @@ def cases(build, folder):
         "abacus": app("calibrate", crushed, faults.TINY + ["Calibrate/Mode = abacus", "Calibrate/Seeds = 1",
                                                            "Calibrate/Modulus list = 36 GPa",
                                                            "Calibrate/Stiffness ratio list = 0.5"]),
-        "files": [str(tests / "test_io"), "--gtest_filter=Checkpoint.*:Csv.*:SpecimenCsv.*:-*cut_off*:*single_bit*:*same_bits"],
+        "files": [str(tests / "test_output"), "--gtest_filter=Checkpoint.*:Csv.*:SpecimenCsv.*:-*cut_off*:*single_bit*:*same_bits"],
         "refusals": [str(apps / "platen-compress"), str(faults.SOURCE / "tests/apps/faulty/misspelt_key.prm")],
     }
 

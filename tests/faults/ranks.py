@@ -77,7 +77,7 @@ CASES = {
 }
 # Cases with more than 10 000 spheres (16 ranks have work), through the peak and to the end.
 FINE = ["Specimen/Sphere radius = 0.39 mm", "Loading/Target strain = 0.006", "Loading/Axial rate = 1.5 m/s",
-        "Output/Every = 25", "Output/Fields every = 800", "Checkpoint/Every = 800", "Output/Spheres in a piece = 4096"]
+        "Output/Every = 25", "Output/Fields every = 800", "Checkpoint/Every = 800"]
 LARGE = {name: (CASES[name][0], CASES[name][1], [*CASES[name][2], *FINE])
          for name in ["rigid", "elastic_explicit", "elastic_quasi_static", "sleeve", "skin", "servo", "cohesive_beam",
                       "elasto_damage_plastic", "yielding"]}

@@ -2,7 +2,7 @@
 """Builds tests under a sanitizer and runs them.
 
     sanitizers.py thread BUILD     data races: the particle library, whose threads are those of C++
-    sanitizers.py address BUILD    memory and undefined behaviour: everything [--only test_dem test_io ...] [--clang]
+    sanitizers.py address BUILD    memory and undefined behaviour: everything [--only test_dem test_output ...] [--clang]
 
 BUILD is a folder for a build of its own, made where it is not there; two programs run at a time. Programs that link deal.II
 are not asked for leaks: MPI and Trilinos keep memory until a process ends. Exit status: 0; 1 where a test fails or a sanitizer
@@ -20,7 +20,7 @@ import sys
 import faults
 
 PARTICLES = ["test_dem", "test_packing"]
-OTHERS = ["test_layering", "test_scene", "test_io", "test_fem", "test_coupling", "test_bonds", "test_pack", "test_calibrate",
+OTHERS = ["test_layering", "test_scene", "test_output", "test_fem", "test_coupling", "test_bonds", "test_pack", "test_calibrate",
           "test_bar", "test_compress", "test_brazilian", "test_bending", "test_study",
           "test_report", "test_stability"]
 KINDS = {"thread": (41, "thread", PARTICLES, "OFF"), "address": (40, "address,undefined", PARTICLES + OTHERS, "ON")}

@@ -19,7 +19,7 @@ TEST(Layering, no_source_of_this_project_breaks_the_layers) {
 }
 
 TEST(Layering, particles_may_not_include_elements_coupling_apps_or_big_libraries) {
-  for (const char *path : {"\"fem/surface_mesh.h\"", "\"coupling/problem.h\"", "\"apps/io/output.h\"",
+  for (const char *path : {"\"fem/surface_mesh.h\"", "\"coupling/problem.h\"", "\"apps/output/output.h\"",
                            "\"../fem/surface_mesh.h\"", "<deal.II/base/tensor.h>", "<vtkPoints.h>", "<mpi.h>",
                            "<Epetra_CrsMatrix.h>", "<Teuchos_RCP.hpp>", "<ml_epetra_utils.h>", "<fstream>"})
     EXPECT_EQ(faults("dem", std::string("#include ") + path + "\n"), 1u) << path;
@@ -37,7 +37,7 @@ TEST(Layering, ranks_know_particles_and_mpi_and_nobody_below_knows_ranks) {
   EXPECT_EQ(faults("coupling", ranks), 0u);
   for (const char *path : {"\"base/vector3.h\"", "\"dem/pair_blocks.h\"", "<mpi.h>", "<zoltan.h>"})
     EXPECT_EQ(faults("dist", std::string("#include ") + path + "\n"), 0u) << path;
-  for (const char *path : {"\"fem/body.h\"", "\"coupling/experiment.h\"", "\"apps/io/file.h\"",
+  for (const char *path : {"\"fem/body.h\"", "\"coupling/experiment.h\"", "\"apps/output/file.h\"",
                            "<deal.II/base/mpi.h>", "<vtkPoints.h>", "<Tpetra_Map.hpp>", "<fstream>"})
     EXPECT_EQ(faults("dist", std::string("#include ") + path + "\n"), 1u) << path;
 }
@@ -49,7 +49,8 @@ TEST(Layering, a_header_of_ranks_asks_for_no_partitioner) {
 
 TEST(Layering, elements_may_not_include_particles_and_coupling_may_include_both) {
   const std::string particles = "#include \"dem/bonds.h\"\n", elements = "#include \"fem/surface_mesh.h\"\n";
-  const std::string coupling = "#include \"coupling/problem.h\"\n", apps = "#include \"apps/io/output.h\"\n";
+  const std::string coupling = "#include \"coupling/problem.h\"\n",
+                    apps = "#include \"apps/output/output.h\"\n";
   EXPECT_EQ(faults("fem", particles + coupling + apps), 3u);
   EXPECT_EQ(faults("fem", elements + "#include <deal.II/base/tensor.h>\n"), 0u);
   EXPECT_EQ(faults("coupling", particles + elements + coupling), 0u);
@@ -58,7 +59,7 @@ TEST(Layering, elements_may_not_include_particles_and_coupling_may_include_both)
 
 TEST(Layering, the_common_ground_knows_nobody) {
   for (const char *path : {"\"dem/table.h\"", "\"fem/surface_mesh.h\"", "\"coupling/problem.h\"",
-                           "\"apps/io/output.h\"", "<deal.II/base/tensor.h>", "<fstream>"})
+                           "\"apps/output/output.h\"", "<deal.II/base/tensor.h>", "<fstream>"})
     EXPECT_EQ(faults("base", std::string("#include ") + path + "\n"), 1u) << path;
   EXPECT_EQ(faults("base", "#include \"base/range.h\"\n"), 0u);
   EXPECT_EQ(faults("dem", "#include \"base/range.h\"\n"), 0u);

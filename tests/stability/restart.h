@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "apps/io/checkpoint_folder.h"
+#include "apps/output/checkpoint_folder.h"
 #include "apps/run/run_state.h"
 #include "base/parallel.h"
 #include "dem/packing/advancing_front.h"
-#include "tests/apps/io_folder.h"
+#include "tests/apps/scratch_folder.h"
 #include "tests/measured.h"
 
 namespace platen::apps {

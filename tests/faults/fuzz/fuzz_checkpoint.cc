@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "apps/io/checkpoint.h"
+#include "apps/output/checkpoint.h"
 #include "base/vector3.h"
 #include "memory_file.h"
 

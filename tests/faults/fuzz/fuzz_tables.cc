@@ -2,7 +2,7 @@
 // chooses.
 #include <cstdint>
 
-#include "apps/io/specimen_csv.h"
+#include "apps/output/specimen_csv.h"
 #include "apps/report/csv.h"
 #include "apps/scene/errors.h"
 #include "memory_file.h"

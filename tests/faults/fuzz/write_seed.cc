@@ -1,5 +1,5 @@
 // Writes a small checkpoint, for the fuzzer to begin with.
-#include "apps/io/checkpoint.h"
+#include "apps/output/checkpoint.h"
 #include "base/vector3.h"
 
 namespace {

@@ -1,0 +1,151 @@
+#include <vtkCell.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <algorithm>
+#include <random>
+
+#include "apps/output/errors.h"
+#include "apps/output/file.h"
+#include "apps/output/vtu.h"
+#include "scratch_folder.h"
+
+namespace platen::apps {
+namespace {
+
+using namespace testing;
+
+class Vtu : public ScratchFolder {
+protected:
+  fs::path path_ = folder_ / "specimen_000003.vtu";
+  vtkNew<vtkXMLUnstructuredGridReader> reader_;
+  vtkUnstructuredGrid *read() {
+    reader_->SetFileName(path_.c_str());
+    reader_->Update();
+    EXPECT_EQ(reader_->GetErrorCode(), 0u);
+    return reader_->GetOutput();
+  }
+};
+
+std::vector<Vector3> random_points(std::size_t n) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-0.05, 0.05);
+  std::vector<Vector3> points(n);
+  for (Vector3 &p : points)
+    p = {uniform(random), uniform(random), uniform(random)};
+  return points;
+}
+
+TEST_F(Vtu, particles_read_back_to_the_same_bits) {
+  const std::size_t n = 5000;
+  const std::vector<Vector3> points = random_points(n);
+  std::vector<double> radius(n), stress(9 * n);
+  std::vector<int> broken(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    radius[k] = 1e-3 / static_cast<double>(k + 1);
+    broken[k] = static_cast<int>(k % 7) - 1;
+    for (std::size_t c = 0; c < 9; ++c)
+      stress[9 * k + c] = -1e6 * static_cast<double>(k) + static_cast<double>(c);
+  }
+  write_points(path_, 0.125, points,
+               {{"radius", radius}, {"velocity", points}, {"broken_bonds", broken}, {"stress", stress, 9}});
+  vtkUnstructuredGrid *grid = read();
+  ASSERT_EQ(grid->GetNumberOfPoints(), static_cast<vtkIdType>(n));
+  ASSERT_EQ(grid->GetNumberOfCells(), static_cast<vtkIdType>(n));
+  EXPECT_EQ(grid->GetCellType(static_cast<vtkIdType>(n) - 1), VTK_VERTEX);
+  vtkPointData *data = grid->GetPointData();
+  ASSERT_EQ(data->GetNumberOfArrays(), 4);
+  const auto value = [&](const char *name, std::size_t k, int c) {
+    return data->GetArray(name)->GetComponent(static_cast<vtkIdType>(k), c);
+  };
+  EXPECT_EQ(data->GetArray("stress")->GetNumberOfComponents(), 9);
+  EXPECT_EQ(data->GetArray("broken_bonds")->GetDataType(), VTK_INT);
+  for (std::size_t k = 0; k < n; ++k) {
+    double p[3];
+    grid->GetPoint(static_cast<vtkIdType>(k), p);
+    for (int c = 0; c < 3; ++c) {
+      ASSERT_EQ(p[c], points[k][c]);
+      ASSERT_EQ(value("velocity", k, c), points[k][c]);
+    }
+    ASSERT_EQ(value("radius", k, 0), radius[k]);
+    ASSERT_EQ(value("broken_bonds", k, 0), broken[k]);
+    for (int c = 0; c < 9; ++c)
+      ASSERT_EQ(value("stress", k, c), stress[9 * k + static_cast<std::size_t>(c)]);
+  }
+  double range[2];
+  data->GetArray("radius")->GetRange(range);
+  EXPECT_EQ(range[0], *std::min_element(radius.begin(), radius.end()));
+  EXPECT_EQ(range[1], *std::max_element(radius.begin(), radius.end()));
+  EXPECT_EQ(grid->GetFieldData()->GetArray("TimeValue")->GetComponent(0, 0), 0.125);
+}
+
+TEST_F(Vtu, bonds_are_lines_with_values_of_their_own) {
+  const std::vector<Vector3> points = random_points(4);
+  const std::vector<std::array<int, 2>> lines{{0, 1}, {3, 2}, {1, 3}};
+  write_lines(path_, 1.5, points, lines, {{"id", std::vector<int>{4, 5, 6, 7}}},
+              {{"state", std::vector<int>{0, 2, 3}}, {"normal_force", std::vector<double>{1.5, -2.5, 0}}});
+  vtkUnstructuredGrid *grid = read();
+  ASSERT_EQ(grid->GetNumberOfPoints(), 4);
+  ASSERT_EQ(grid->GetNumberOfCells(), 3);
+  for (vtkIdType k = 0; k < 3; ++k) {
+    EXPECT_EQ(grid->GetCellType(k), VTK_LINE);
+    const auto row = static_cast<std::size_t>(k);
+    EXPECT_EQ(grid->GetCell(k)->GetPointId(0), lines[row][0]);
+    EXPECT_EQ(grid->GetCell(k)->GetPointId(1), lines[row][1]);
+  }
+  EXPECT_EQ(grid->GetCellData()->GetArray("state")->GetComponent(2, 0), 3);
+  EXPECT_EQ(grid->GetCellData()->GetArray("normal_force")->GetComponent(1, 0), -2.5);
+  EXPECT_EQ(grid->GetPointData()->GetArray("id")->GetComponent(3, 0), 7);
+}
+
+TEST_F(Vtu, is_binary_and_compressed) {
+  write_points(path_, 0, random_points(100), {});
+  const std::string text = content_of(path_);
+  EXPECT_TRUE(contains(text, "vtkZLibDataCompressor"));
+  EXPECT_TRUE(contains(text, "<AppendedData encoding=\"raw\">"));
+  // Equal values shrink to next to nothing.
+  write_points(path_, 0, std::vector<Vector3>(100000), {{"radius", std::vector<double>(100000, 0.25)}});
+  EXPECT_LT(fs::file_size(path_), 400000u); // 3.2 MB and the cells' 1.7 MB as they are in memory
+}
+
+TEST_F(Vtu, without_points_reads_back_without_points) {
+  write_points(path_, 0, {}, {{"radius", std::vector<double>{}}});
+  EXPECT_EQ(read()->GetNumberOfPoints(), 0);
+  write_lines(path_, 0, random_points(2), {}, {}, {{"state", std::vector<int>{}}});
+  EXPECT_EQ(read()->GetNumberOfCells(), 0);
+}
+
+TEST_F(Vtu, fields_of_another_length_and_lines_to_nowhere_are_refused) {
+  const std::vector<Vector3> points = random_points(3);
+  EXPECT_THROW(write_points(path_, 0, points, {{"radius", std::vector<double>(2)}}), std::logic_error);
+  EXPECT_THROW(write_points(path_, 0, points, {{"stress", std::vector<double>(9), 9}}), std::logic_error);
+  EXPECT_THROW(write_lines(path_, 0, points, {{0, 3}}, {}, {}), std::logic_error);
+  EXPECT_THROW(write_lines(path_, 0, points, {{-1, 0}}, {}, {}), std::logic_error);
+  EXPECT_FALSE(fs::exists(path_));
+}
+
+// From a file that a buffer holds to one that is written in many pieces: the place where the failure shows
+// differs.
+TEST_F(Vtu, on_a_full_disk_says_so_and_keeps_the_former_file) {
+  write_points(path_, 0, random_points(7), {});
+  const std::string former = content_of(path_);
+  for (const std::size_t n : {std::size_t{0}, std::size_t{3}, std::size_t{1000}, std::size_t{200000}}) {
+    fs::create_symlink("/dev/full", part_path(path_));
+    const std::string text = message_of<OutputError>([&] { write_points(path_, 0, random_points(n), {}); });
+    EXPECT_TRUE(contains(text, part_path(path_).string()) && contains(text, "No space left")) << text;
+    EXPECT_EQ(content_of(path_), former);
+    EXPECT_FALSE(fs::exists(fs::symlink_status(part_path(path_))));
+  }
+  EXPECT_TRUE(fs::exists("/dev/full"));
+}
+
+TEST_F(Vtu, in_no_folder_says_so) {
+  EXPECT_THROW(write_points(folder_ / "none" / "a.vtu", 0, random_points(3), {}), OutputError);
+}
+
+} // namespace
+} // namespace platen::apps
