@@ -122,7 +122,7 @@ private:
     refuse_start(norm(s_.model.gravity) > 0, "does not go with gravity.");
     refuse_start(has_sides(), "does not go with platens on the sides.");
     refuse_if(l_.start_strain >= l_.target_strain, "loading.start_strain",
-              "is not below `loading.target_strain`, " + text_of(l_.target_strain) + ".");
+              "is not below `loading.target_strain` = " + text_of(l_.target_strain) + ".");
     refuse_if(!l_.unload_at.empty() && l_.start_strain >= l_.unload_at.front(), "loading.start_strain",
               "is not below the first of `loading.unload_at`.");
   }
@@ -155,7 +155,7 @@ private:
     refuse_if(!std::is_sorted(l_.unload_at.begin(), l_.unload_at.end()), "loading.unload_at",
               "does not ascend.");
     refuse_if(l_.unload_at.back() >= l_.target_strain, "loading.unload_at",
-              "goes beyond `loading.target_strain`, " + text_of(l_.target_strain) + ".");
+              "goes beyond `loading.target_strain` = " + text_of(l_.target_strain) + ".");
     refuse_if(alone() || l_.servo, "loading.unload_at", "needs platens that are driven by motion.");
   }
 

@@ -108,9 +108,7 @@ def names_in_sources():
     tables = (SOURCE / "apps/study/tables.cc").read_text(encoding="utf-8")
     figures = re.search(r"cells_of\(\s*((?:\"[^\"]*\"\s*)+)\)", tables)
     study = "".join(re.findall(r"\"([^\"]*)\"", figures.group(1))).split(",")
-    summary = (SOURCE / "apps/run/summary_of_run.cc").read_text(encoding="utf-8")
-    keys = set(re.findall(r"\b(?:to|s)\[\"(\w+)\"\] =", summary))
-    return {"history.csv": columns, "study.csv": set(study), "summary.json": keys}
+    return {"history.csv": columns, "study.csv": set(study)}
 
 
 def main():

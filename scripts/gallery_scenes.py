@@ -37,7 +37,7 @@ GROUPS = [
               "Without friction the cube has the strength of the prism, and its sides open from platen to platen."),
         Scene("prism_dry", COMPRESS, "fragments",
               "In a prism the ends are far apart: the middle fails as if the platens were far away, and a piece is "
-              "left on each end. The table has cones by displacement, the picture draws those by damage."),
+              "left on each end. The table has cones by displacement."),
         Scene("prism_lubricated", COMPRESS, "outward_displacement",
               "One end opens and splits, but the strength is nearly that between dry platens: in slender specimens "
               "the ends have little influence on the strength."),

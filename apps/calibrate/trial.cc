@@ -10,7 +10,6 @@
 
 #include "apps/calibrate/calibrate_section.h"
 #include "apps/output/stop_signal.h"
-#include "apps/run/at_peak.h"
 #include "apps/run/controls.h"
 #include "apps/run/peak.h"
 #include "apps/run/problem_setup.h"

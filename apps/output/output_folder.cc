@@ -159,8 +159,9 @@ void open_locked(std::unique_ptr<FileLock> &lock, const fs::path &folder, Folder
                  const std::vector<fs::path> &inputs, RunLog &log) {
   if (this_rank().is_silent()) return;
   check_output_folder(folder, use, inputs);
-  std::error_code reported_below;
-  fs::create_directories(folder, reported_below);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) fail(folder, "cannot be created: " + error.message());
   if (lock == nullptr) lock = lock_folder(folder, patience_of_run, log);
   open_output_folder(folder, use, inputs); // what was there before the lock is checked again
 }

@@ -36,18 +36,15 @@ bool is_within(const FittedCone &cone, const Position &place) {
 
 } // namespace
 
-FittedCone cone_of(const Run &run, ConeKind kind, Side end, ConeTime time) {
+FittedCone cone_of(const Run &run, Side end, ConeTime time) {
   FittedCone cone;
   const std::string start = time == ConeTime::end ? "final_" : "",
                     key = end == Side::top ? "cone_top" : "cone_bottom";
-  const bool both_kinds = run.summary.contains("sound_cone_top");
-  if (kind == ConeKind::by_displacement && !both_kinds) return cone;
-  const auto found =
-      run.summary.find(start + (kind == ConeKind::by_damage && both_kinds ? "sound_" : "") + key);
+  const auto found = run.summary.find(start + key);
   const auto pattern = run.summary.find(start + "pattern"); // null where nobody looked
   if (found == run.summary.end() || pattern == run.summary.end() || pattern->is_null()) return cone;
   if (const auto zone = run.summary.find(start + "dead_zone" + key.substr(4));
-      kind == ConeKind::by_displacement && (zone == run.summary.end() || zone->is_null()))
+      zone == run.summary.end() || zone->is_null())
     return cone; // the stress did not fall
   if (found->is_null()) {
     cone.verdict = FittedCone::Verdict::none;

@@ -1,4 +1,4 @@
-// The cones that a run found on its platens, by displacement and by damage, as outlines for pictures.
+// The cones that a run found on its platens, by displacement, as outlines for pictures.
 #pragma once
 
 #include <array>
@@ -23,12 +23,10 @@ struct FittedCone {
 };
 
 enum class ConeTime { fall, end }; // at 0.8 of the peak; at the end of the run
-// Of what moves with the platen after the peak; of the sound piece on it.
-enum class ConeKind { by_displacement, by_damage };
 
-// Summaries of builds that did not look for cones of a kind, or did not say where they stand, give
-// `not_measured`. Those that have no `sound_cone_top` told cones by damage as `cone_top`.
-FittedCone cone_of(const Run &run, ConeKind kind, Side end, ConeTime time);
+// Of what moves with the platen after the peak. Summaries of builds that did not look for it, or did not say
+// where it stands, give `not_measured`: those without `dead_zone_top` told other cones by the same keys.
+FittedCone cone_of(const Run &run, Side end, ConeTime time);
 
 // Angle (rad) about the specimen's axis of the plane through it that the apexes and axes of the cones lie
 // nearest to, an axis as far as it reaches over a third of the specimen's `height` (m); 0 without cones.

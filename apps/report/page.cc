@@ -49,8 +49,6 @@ const std::vector<Figure> figures = {
     {"half-angle of the bottom cone", {"cone_bottom/half_angle_deg"}, 1, 1, true},
     {"top cone at the end", {"final_cone_top/half_angle_deg"}, 1, 1, true},
     {"bottom cone at the end", {"final_cone_bottom/half_angle_deg"}, 1, 1, true},
-    {"half-angle of the top cone by damage", {"sound_cone_top/half_angle_deg"}, 1, 1, true},
-    {"half-angle of the bottom cone by damage", {"sound_cone_bottom/half_angle_deg"}, 1, 1, true},
     {"b-value before the peak", {"acoustic/b_before"}, 1, 2, true},
     {"b-value after the peak", {"acoustic/b_after"}, 1, 2, true},
 };

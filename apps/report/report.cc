@@ -50,8 +50,7 @@ void draw_comparison(const std::vector<Run> &runs, Album &album) {
         "displacement.",
         draw_side_by_side, runs, Quantity::dead_zones);
   if (std::any_of(runs.begin(), runs.end(), tells_fragments))
-    album.add("comparison_fragments.png",
-              "Pieces at the end, and the cones fitted to what is sound at each platen: cones by damage.",
+    album.add("comparison_fragments.png", "Pieces at the end that bonds still hold together.",
               draw_side_by_side, runs, Quantity::pieces);
 }
 
@@ -120,7 +119,8 @@ void draw_specimen(const Run &run, const Extent &extent, Album &album) {
   if (tells_dead_zones(run))
     album.add("cones.png", dead_zones_caption(run), draw_pattern_and_end, run, extent, Quantity::dead_zones);
   if (tells_fragments(run))
-    album.add("fragments.png", fragments_caption(run), draw_pattern_and_end, run, extent, Quantity::pieces);
+    album.add("fragments.png", "Half specimen, the pieces that bonds still hold together in colours.",
+              draw_pattern_and_end, run, extent, Quantity::pieces);
 }
 
 void draw_all_cracks(const Run &run, const Spheres &before_test, bool is_plane, Album &album) {

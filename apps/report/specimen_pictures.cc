@@ -24,8 +24,8 @@ Words words_of(Quantity quantity) {
        "Outward\ndisplacement\n(mm)"},
       {"The specimen cut in half", "", "", "Displacement\n(mm)"},
       {"Damage, half of the specimen", "Damage compared", "Half of each specimen", "Share of\nbonds broken"},
-      {"Pieces that bonds hold together (grey: below 30 spheres) and cones by damage",
-       "Pieces and cones by damage compared", "Grey: pieces of fewer than 30 spheres", ""},
+      {"Pieces that bonds hold together (grey: below 30 spheres)", "Pieces compared",
+       "Grey: pieces of fewer than 30 spheres", ""},
       {"What moves with the bottom platen (blue) and with the top one (orange), and cones by displacement",
        "What moves with the platens, and cones by displacement",
        "Blue: with the bottom one; orange: with the top one", ""}};
@@ -90,12 +90,10 @@ void turn(CutView &view, double angle) {
   }
 }
 
-// Those of a kind, on top and at the bottom, where a box stays as it is and a cylinder is turned to their
-// axes.
-void mark_cones(CutView &view, const Run &run, ConeKind kind, ConeTime moment, const Extent &extent) {
-  const FittedCone top = cone_of(run, kind, Side::top, moment),
-                   bottom = cone_of(run, kind, Side::bottom, moment);
-  const bool turns = kind == ConeKind::by_displacement && extent.form == Extent::Form::cylinder;
+// On top and at the bottom, where a box stays as it is and a cylinder is turned to their axes.
+void mark_cones(CutView &view, const Run &run, ConeTime moment, const Extent &extent) {
+  const FittedCone top = cone_of(run, Side::top, moment), bottom = cone_of(run, Side::bottom, moment);
+  const bool turns = extent.form == Extent::Form::cylinder;
   const double angle = turns ? angle_of_axes({top, bottom}, extent.height()) : 0;
   if (turns) turn(view, angle);
   mark_cone(view, turned(top, angle), Side::top, extent);
@@ -111,13 +109,13 @@ CutView view_at(const Run &run, double time, Quantity quantity, const std::strin
   return view;
 }
 
-// At the fall to 0.8 of the peak, or at the end; with the cones that were fitted then where pieces are shown.
+// At the fall to 0.8 of the peak, or at the end; with the cones that were fitted then where dead zones are
+// shown.
 CutView view_of(const Run &run, ConeTime moment, Quantity quantity, const Extent &extent) {
   CutView view = moment == ConeTime::fall
                      ? view_at(run, run.pattern_time(), quantity, "at " + run.pattern_words())
                      : view_at(run, run.moments.end_time, quantity, "at the end");
-  if (quantity == Quantity::pieces) mark_cones(view, run, ConeKind::by_damage, moment, extent);
-  if (quantity == Quantity::dead_zones) mark_cones(view, run, ConeKind::by_displacement, moment, extent);
+  if (quantity == Quantity::dead_zones) mark_cones(view, run, moment, extent);
   return view;
 }
 
@@ -188,11 +186,10 @@ void draw_side_by_side(const std::vector<Run> &runs, Quantity quantity, const st
 namespace {
 
 // " Cone at the end: on top ..., at the bottom ... ." of each time that is known.
-std::string cones_in_words(const Run &run, ConeKind kind) {
+std::string cones_in_words(const Run &run) {
   std::string text;
   const auto say = [&](const std::string &when, ConeTime time) {
-    const FittedCone top = cone_of(run, kind, Side::top, time),
-                     bottom = cone_of(run, kind, Side::bottom, time);
+    const FittedCone top = cone_of(run, Side::top, time), bottom = cone_of(run, Side::bottom, time);
     if (top.verdict == FittedCone::Verdict::not_measured &&
         bottom.verdict == FittedCone::Verdict::not_measured)
       return;
@@ -205,19 +202,11 @@ std::string cones_in_words(const Run &run, ConeKind kind) {
 
 } // namespace
 
-std::string fragments_caption(const Run &run) {
-  return "Half specimen, the pieces that bonds still hold together in colours." +
-         cones_in_words(run, ConeKind::by_damage) +
-         " Outlines: where the cone by damage, fitted to spheres that kept most of their bonds, meets the "
-         "cut.";
-}
-
 std::string dead_zones_caption(const Run &run) {
   return "Half specimen, cut where the axes of the cones lie. Blue has moved with the bottom platen since "
          "the peak, "
          "orange with the top one." +
-         cones_in_words(run, ConeKind::by_displacement) +
-         " Outlines: the cone by displacement, fitted to what is coloured.";
+         cones_in_words(run) + " Outlines: the cone by displacement, fitted to what is coloured.";
 }
 
 } // namespace platen::apps::report

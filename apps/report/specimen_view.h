@@ -54,7 +54,7 @@ void save_cut_views(const std::string &title, const std::string &subtitle, const
                     const Extent &extent, const Colouring &colouring, const std::filesystem::path &png);
 
 // What the spheres of a picture are coloured by. Pieces: those of 30 and more spheres that bonds hold
-// together, with the cones by damage; the frames must tell fragments. Dead zones: what has moved with each
+// together, the frames must tell fragments. Dead zones: what has moved with each
 // platen since the peak, with the cones by displacement, in the plane of their axes; tells_dead_zones().
 enum class Quantity { outward_displacement, displacement, damage, pieces, dead_zones };
 
@@ -73,8 +73,7 @@ void draw_side_by_side(const std::vector<Run> &runs, Quantity quantity, const st
 bool tells_fragments(const Run &run);
 // Whether they say what moves with the platens, and the stress has fallen to 0.8 of the peak.
 bool tells_dead_zones(const Run &run);
-// What to see in the pictures of the pieces and of the dead zones, with the cones in words.
-std::string fragments_caption(const Run &run);
+// What to see in the picture of the dead zones, with the cones in words.
 std::string dead_zones_caption(const Run &run);
 
 // Pieces that other pictures use too.

@@ -8,6 +8,7 @@
 #include "apps/output/file.h"
 #include "apps/output/machine.h"
 #include "apps/output/sha256.h"
+#include "apps/run/figures.h"
 #include "apps/scene/checks.h"
 #include "apps/scene/expect.h"
 #include "apps/scene/parameters.h"
@@ -24,11 +25,6 @@ Json overridden(const Scene &scene) {
     if (entry.overridden())
       list.push_back({{"entry", entry.path}, {"value", entry.text}, {"in_scene_file", entry.of_file}});
   return list;
-}
-
-void clear(Json &summary, std::initializer_list<const char *> keys) {
-  for (const char *unmeasured : keys)
-    summary[unmeasured] = TestFigures::none;
 }
 
 } // namespace
@@ -126,7 +122,7 @@ void AppOutput::save(Json summary) const {
 }
 
 int AppOutput::finish(Json summary, const std::string &report) {
-  summary["expectations"] = check_expectations(scene_, summary).list;
+  summary["expectations"] = check_expectations(scene_, summary);
   save(summary);
   log.info("{}", report);
   return tell_expectations(summary);
@@ -171,30 +167,27 @@ void TestFigures::add(const dem::Model &model, long steps_made) {
 
 void add_figures(Json &s, const TestFigures &f) {
   const double particles = static_cast<double>(f.particles);
-  s["particles"] = f.particles;
-  s["bonds"] = f.bonds;
-  s["coordination_number"] = 2.0 * static_cast<double>(f.bonds) / particles;
-  s["packing_fraction"] = f.packing_fraction;
-  s["steps"] = f.steps;
-  s["time_step_s"] = f.time_step;
-  s["time_step_reason"] = f.time_step_reason;
-  s["threads"] = f.threads;
-  s["wall_seconds"] = f.wall_seconds;
-  s["setup_seconds"] = f.setup_seconds;
-  s["particle_steps_per_second"] = particles * static_cast<double>(f.steps) / f.wall_seconds;
+  Json measured{{"particles", f.particles},
+                {"bonds", f.bonds},
+                {"coordination_number", 2.0 * static_cast<double>(f.bonds) / particles},
+                {"packing_fraction", f.packing_fraction},
+                {"steps", f.steps},
+                {"time_step_s", f.time_step},
+                {"time_step_reason", f.time_step_reason},
+                {"threads", f.threads},
+                {"wall_seconds", f.wall_seconds},
+                {"setup_seconds", f.setup_seconds},
+                {"particle_steps_per_second", particles * static_cast<double>(f.steps) / f.wall_seconds},
+                {"peak_memory_bytes", peak_memory_bytes()},
+                {"youngs_modulus_gauge_pa", f.youngs_modulus},
+                {"poisson_ratio", f.poisson_ratio},
+                {"broken_tension", f.broken_tension},
+                {"broken_shear", f.broken_shear},
+                {"energy_residual_relative", f.energy_residual.value()}};
   for (std::size_t k = 0; k < f.stage_seconds.size(); ++k)
-    s["stage_seconds"][dem::stage_names[k]] = f.stage_seconds[k];
-  s["peak_memory_bytes"] = peak_memory_bytes();
-  clear(s, {"strength_pa", "strain_at_peak_platen", "strain_at_peak_gauge"});
-  s["youngs_modulus_gauge_pa"] = f.youngs_modulus;
-  clear(s, {"youngs_modulus_platen_pa"});
-  s["poisson_ratio"] = f.poisson_ratio;
-  s["broken_tension"] = f.broken_tension;
-  s["broken_shear"] = f.broken_shear;
-  s["energy_residual_relative"] = f.energy_residual.value();
-  clear(s, {"kinetic_to_internal_max", "end_damage_top", "end_damage_bottom", "worse_end_damage",
-            "middle_damage", "end_spread", "barrel_at_peak", "fragments", "cone_top", "cone_bottom",
-            "sound_cone_top", "sound_cone_bottom"});
+    measured["stage_seconds"][dem::stage_names[k]] = f.stage_seconds[k];
+  for (const Figure &figure : figures())
+    if ((figure.needs & of_every_test) != 0) s[figure.key] = measured.value(figure.key, Json());
 }
 
 } // namespace platen::apps

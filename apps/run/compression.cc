@@ -11,8 +11,6 @@
 #include "apps/run/compression_run.h"
 #include "apps/run/controls.h"
 #include "apps/run/estimate.h"
-#include "apps/run/pressure_path.h"
-#include "apps/run/quasi_static.h"
 #include "apps/run/ranks.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/expect.h"
@@ -128,7 +126,7 @@ void CompressionRun::begin() {
 void CompressionRun::give_up() {
   failed_ = true;
   test_->gather(); // all ranks have the same program and boundaries: all stop here
-  save_summary("failed");
+  output_.save(summary("failed"));
 }
 
 int CompressionRun::run() {
@@ -167,7 +165,8 @@ void CompressionRun::finish_files() {
   write_crack_discs(paths_.cracks(), test_->time(), paths_.cracks_vtu());
 }
 
-void CompressionRun::tell_doubts() {
+// Of what the test ended with.
+void CompressionRun::tell_doubts(const Json &summary) {
   if (ended_by() == "shortened too far")
     log_.warning(
         "the specimen is shortened by {:.0f} % of its length: the test ends, for what is between the "
@@ -175,13 +174,11 @@ void CompressionRun::tell_doubts() {
         100 * std::abs(test_->closure_strain(results_.axis())));
   tell_path();
   tell_misses(0);
-  const std::vector<std::string> reasons =
-      reasons_not_quasi_static(slowness(*test_, results_), test_->bent());
-  if (!reasons.empty() && knows_slowness(results_, costs().ended_by))
+  if (const Json &signs = summary["signs_of_haste"]; !signs.empty())
     log_.warning("too fast to be quasi-static, a lower Loading/Axial rate helps: {}",
-                 fmt::join(reasons, "; "));
+                 fmt::join(signs.get<std::vector<std::string>>(), "; "));
   constexpr double most_unbalanced = 0.01; // of the work
-  if (const double share = results_.platen_unbalanced_work_relative(); share > most_unbalanced)
+  if (const double share = number_in(summary, "platen_unbalanced_work_relative"); share > most_unbalanced)
     log_.warning(
         "platens without inertia are {:.1f} % of the work behind their loads (summary.json, "
         "platen_unbalanced_work_relative), which no more than {:.0f} % should be: "
@@ -193,10 +190,12 @@ int CompressionRun::end() {
   ending_ = true;
   results_.finish(*test_, event_window());
   finish_files();
-  if (signal_ == 0 && finished()) expectations_ = check_expectations(scene_, summary("done")).list;
-  save_summary(signal_ != 0 ? "stopped" : "done");
-  log_.info("{}", report_of_run(scene_, *test_, results_, costs()));
-  tell_doubts();
+  Json ended = summary(signal_ != 0 ? "stopped" : "done");
+  if (signal_ == 0 && finished()) ended["expectations"] = check_expectations(scene_, ended);
+  at_end_ = ended;
+  output_.save(ended);
+  log_.info("{}", report_of_run(ended));
+  tell_doubts(ended);
   if (signal_ != 0) {
     log_.info("stopped by a signal; go on with: {}", resuming_command());
     return exit_status_of_signal(signal_);
@@ -210,7 +209,7 @@ int CompressionRun::end() {
     log_.info("ended before its target: what the scene expects is not checked");
     return status_done;
   }
-  return output_.tell_expectations(summary("done"));
+  return output_.tell_expectations(ended);
 }
 
 int run_compression(const CommandLine &command, const Scene &scene) {

@@ -224,16 +224,12 @@ void CompressionRun::write_events() const {
   table.finish();
 }
 
-void CompressionRun::save_summary(const std::string &status) {
-  output_.save(summary(status));
-}
-
 Json CompressionRun::summary(const std::string &status) const {
-  Json made = summary_of_run(status, scene_, *test_, results_, costs());
+  if (!at_end_.is_null()) return at_end_;
+  const RunCosts spent = costs();
+  Json made = summary_of_run(status, {scene_, *test_, results_, spent});
   if (!changes_.empty()) made["changes"] = changes_;
-  made["expectations"] = expectations_.is_null()
-                             ? unchecked_expectations(scene_, "the test has not come to its end")
-                             : expectations_;
+  made["expectations"] = unchecked_expectations(scene_, "the test has not come to its end");
   return made;
 }
 

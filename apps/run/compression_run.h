@@ -56,6 +56,7 @@ public:
 
   coupling::PlatenTest &test() { return *test_; }
   const Results &results() const { return results_; }
+  // Of the test as far as it has come; once it has ended, that of its end.
   Json summary(const std::string &status) const;
 
 private:
@@ -86,12 +87,11 @@ private:
   std::string ended_by() const; // empty: it goes on
   void tell_misses(std::size_t from) const;
   void tell_path() const;
-  void tell_doubts();
+  void tell_doubts(const Json &summary);
   void finish_files();
   void write_bond_stress() const;
   dem::EventWindow event_window() const;
   void write_events() const;
-  void save_summary(const std::string &status);
   RunCosts costs() const;
 
   const CommandLine &command_;
@@ -117,7 +117,7 @@ private:
   bool checkpoint_asked_ = false, failed_ = false, ending_ = false;
   bool tells_cut_ = false;       // once, after the first steps on ranks
   Json changes_ = Json::array(); // on the way
-  Json expectations_;            // as summary.json has them, once the test has come to its end; else null
+  Json at_end_;                  // summary.json, once the test has ended; else null
   std::function<void(const Sample &)> listener_;
 };
 

@@ -9,7 +9,6 @@
 #include "apps/output/specimen_csv.h"
 #include "apps/output/stop_signal.h"
 #include "apps/run/compression_run.h"
-#include "apps/run/failure_summary.h"
 #include "apps/run/needs.h"
 #include "apps/run/packing_cache.h"
 #include "apps/run/problem_setup.h"

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/largest.h"
+
 namespace platen::apps {
 namespace {
 
@@ -36,30 +38,6 @@ bool is_asked_again(const coupling::PlatenTest &problem, int axis, std::size_t a
 }
 
 } // namespace
-
-Json controls_of_stage(const coupling::PlatenTest &problem, std::size_t stage) {
-  Json all = Json::array();
-  for (const Controlled &c : problem.program().controls(stage))
-    all.push_back({{"quantity", c.quantity},
-                   {"side", c.side},
-                   {"asked", c.asked},
-                   {"reached", c.reached},
-                   {"unit", c.unit},
-                   {"met", c.is_met()}});
-  return all;
-}
-
-void add_controls(Json &to, const coupling::PlatenTest &problem) {
-  if (!problem.settings().loading.stages.empty()) return; // each of them has its own
-  Json all = Json::array();
-  for (std::size_t stage = 0; stage <= problem.program().stage_number(); ++stage)
-    for (const Json &control : controls_of_stage(problem, stage)) {
-      Json one{{"stage", problem.program().stage(stage).name()}};
-      one.update(control);
-      all.push_back(one);
-    }
-  to["controls"] = all;
-}
 
 std::string words_of_misses(const coupling::PlatenTest &problem, std::size_t stage) {
   const std::string by = problem.program().stage(stage).ended_by();
@@ -116,6 +94,30 @@ std::string confinement_against(const Results &results, double time) {
   return fmt::format(
       "the pressure loaded {:.0f} % of the lateral surface then, {:.0f} % at least: pieces have come loose",
       100 * at->confined_share, 100 * least_confined);
+}
+
+PressurePath pressure_path(const coupling::PlatenTest &problem, const Results &results) {
+  PressurePath found;
+  const std::optional<coupling::CellSettings> &cell = problem.settings().loading.cell;
+  if (!cell || cell->path == 0) return found;
+  const std::vector<Sample> &samples = results.samples();
+  double strain_found = not_measured;
+  Largest deviation;
+  for (const Sample &s : samples) {
+    if (s.axial_stage == 0) {
+      strain_found = s.strain_platen;
+      continue;
+    }
+    const double asked = cell->pressure + cell->path * s.deviator();
+    if (asked <= 0 && s.confining_pressure <= 0) {
+      found.ended_at_strain = s.strain_platen - strain_found;
+      return found;
+    }
+    deviation.add(std::abs(s.confining_pressure - std::max(0.0, asked)) / std::max(cell->pressure, asked));
+    found.deviation = deviation.value();
+    if (s.time >= results.time_at_peak()) return found;
+  }
+  return found;
 }
 
 } // namespace platen::apps

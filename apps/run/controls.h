@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/output/summary.h"
 #include "apps/run/results.h"
 #include "coupling/platen_test.h"
 
@@ -12,12 +11,6 @@ namespace platen::apps {
 
 // Of the lateral surface that a cell's pressure loads: with less a test is no longer one at its pressure.
 constexpr double least_confined = 0.9;
-
-// Of a stage (from 0) that has begun, as it is now or was at its end: a list of quantity, side, asked,
-// reached, unit, met (within 1 %).
-Json controls_of_stage(const coupling::PlatenTest &problem, std::size_t stage);
-// Adds `controls`, the same of all stages with their names, to a test whose scene writes none.
-void add_controls(Json &to, const coupling::PlatenTest &problem);
 
 // Of a stage that is over: "stage 1 (ended by: time) has not reached what it asked: top stress 3.42 of 5
 // MPa"; empty where all was met.
@@ -39,5 +32,17 @@ std::vector<std::string> controls_against(const coupling::PlatenTest &problem, c
 // And that a cell's pressure no longer loaded enough of the lateral surface; empty where it did, or where
 // that is not known (no cell, no pressure on a sleeve).
 std::string confinement_against(const Results &results, double time);
+
+constexpr double most_off_path = 0.01; // of the pressure
+
+// Of a test whose pressure gains a share of the deviator, up to the peak or to where the path ends.
+struct PressurePath {
+  // Largest distance from the path, over its pressure there or that which it begins with, the larger; NaN
+  // without a path.
+  double deviation = not_measured;
+  double ended_at_strain =
+      not_measured; // of the platens since consolidation, where the pressure came to nothing
+};
+PressurePath pressure_path(const coupling::PlatenTest &problem, const Results &results);
 
 } // namespace platen::apps

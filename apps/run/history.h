@@ -15,6 +15,8 @@
 
 namespace platen::apps {
 
+constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
+
 // Laboratory signs: stresses and axial strains positive in compression, lateral strain negative where the
 // specimen bulges. NaN: not measured.
 struct Sample {
@@ -25,7 +27,7 @@ struct Sample {
   double stress_top = 0, stress_bottom = 0;        // Pa
   double confining_pressure = 0;                   // Pa, that acts: of a cell or on a wall
   // Of the lateral surface that a cell loads.
-  double confined_share = std::numeric_limits<double>::quiet_NaN();
+  double confined_share = not_measured;
   double cell_pressure = 0;            // Pa, of a cell alone
   double sleeve_volumetric_strain = 0; // of the volume within a sleeve
   double sleeve_deviator = 0;          // Pa, axial, over the specimen's area
@@ -68,6 +70,17 @@ constexpr double Sample::*platen_strain(int axis) {
   return axis == 0 ? &Sample::strain_x : axis == 1 ? &Sample::strain_y : &Sample::strain_platen;
 }
 
+// Of the platen on that side.
+constexpr double Sample::*stress_of(coupling::Side side) {
+  using coupling::Side;
+  return side == Side::bottom  ? &Sample::stress_bottom
+         : side == Side::top   ? &Sample::stress_top
+         : side == Side::left  ? &Sample::stress_left
+         : side == Side::right ? &Sample::stress_right
+         : side == Side::front ? &Sample::stress_front
+                               : &Sample::stress_back;
+}
+
 // A column of history.csv, or a number that only checkpoints keep: declared once, in history.cc. A checkpoint
 // that was written before there was a column gives `before` for it.
 struct Seen;
@@ -87,7 +100,7 @@ struct HistoryColumn {
   Form form = Form::number;
   bool (*there)(const coupling::PlatenTest &) = nullptr; // null: in every test
   Missing missing = Missing::never;
-  double before = std::numeric_limits<double>::quiet_NaN();
+  double before = not_measured;
 };
 const std::vector<HistoryColumn> &history_columns();
 // Of column k.

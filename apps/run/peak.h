@@ -22,6 +22,10 @@ enum class PeakKind {
   plateau, // it has gained less than 1 % in the last fifth of the strain
 };
 
+constexpr const char *word_of(PeakKind kind) {
+  return kind == PeakKind::fallen ? "fallen" : kind == PeakKind::plateau ? "plateau" : "not reached";
+}
+
 struct PeakOfCurve {
   PeakKind kind = PeakKind::none;
   double largest = 0, strain_of_largest = 0; // Pa, 1

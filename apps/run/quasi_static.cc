@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/run/at_peak.h"
 #include "base/largest.h"
 
 namespace platen::apps {
@@ -36,6 +35,12 @@ double strain_rate(const std::vector<Sample> &rise, std::size_t row, const coupl
 
 } // namespace
 
+double wave_transits(const coupling::PlatenTest &problem, int axis, double seconds) {
+  const double share = coupling::length(problem.shape(), axis) / problem.shape().height;
+  const double transit = share * problem.facts().wave_transit;
+  return transit > 0 ? seconds / transit : not_measured;
+}
+
 Slowness slowness(const coupling::PlatenTest &problem, const std::vector<Sample> &rise, int axis) {
   Slowness s;
   std::vector<double> unbalanced;
@@ -57,16 +62,15 @@ Slowness slowness(const coupling::PlatenTest &problem, const std::vector<Sample>
 
 Slowness slowness(const coupling::PlatenTest &problem, const Results &results) {
   Slowness s = slowness(problem, results.rise(), results.axis());
-  s.kinetic = results.kinetic_to_internal_max();
-  s.wave_transits = wave_transits_to_peak(problem, results);
+  s.wave_transits = wave_transits(problem, results.axis(), results.axial_time_to_peak());
   s.to_peak = results.peak().reached();
   return s;
 }
 
-bool knows_slowness(const Results &results, const std::string &ended_by) {
+bool knows_slowness(bool peak_reached, const std::string &ended_by) {
   const std::string by = ended_by.substr(0, ended_by.find(';')); // what follows was not reached
   const bool cut_off = by.empty() || by == "signal" || by == "failure" || by == "script";
-  return results.peak().reached() || !cut_off;
+  return peak_reached || !cut_off;
 }
 
 std::vector<std::string> reasons_not_quasi_static(const Slowness &s, bool bent) {

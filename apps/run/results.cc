@@ -13,6 +13,8 @@ namespace {
 constexpr double pattern_share = 0.8;
 // Moduli are secants at this share of the strength (Bamforth; Tannu 2017).
 constexpr double modulus_share = 0.4;
+// From here on the energy balance, and the speed of a test, say more than the noise of the first contacts.
+constexpr double whole_share = 0.1;
 
 } // namespace
 
@@ -112,6 +114,20 @@ void Results::finish(const coupling::PlatenTest &problem, const dem::EventWindow
   emission_.after = dem::b_value(after);
 }
 
+double Emission::largest_magnitude() const {
+  double largest = not_measured;
+  for (const dem::AcousticEvent &event : events)
+    largest = std::fmax(largest, event.magnitude);
+  return largest;
+}
+
+int Emission::largest_cracks() const {
+  int most = 0;
+  for (const dem::AcousticEvent &event : events)
+    most = std::max(most, event.cracks);
+  return most;
+}
+
 // Platens that begin to move make the stress oscillate a little, and so may a heavy sleeve: no peak before a
 // bond of the axial stage breaks.
 bool Results::fallen_to(double share) const {
@@ -134,6 +150,10 @@ PeakOfCurve Results::peak() const {
   return judge_peak(curve);
 }
 
+bool Results::has_axial_stage() const {
+  return std::any_of(samples_.begin(), samples_.end(), [](const Sample &s) { return s.axial_stage != 0; });
+}
+
 bool Results::is_ever_loaded_on() const {
   return std::count(counts_.begin(), counts_.end(), 1) > 0;
 }
@@ -142,79 +162,6 @@ bool Results::goes_on_by_command() const {
   for (std::size_t k = peak_row_ + 1; k < samples_.size(); ++k)
     if (samples_[k].loads == 0 || samples_[k].setting != samples_[peak_row_].setting) return true;
   return false;
-}
-
-// NaN where one of them is.
-LargestReading Results::largest_of(bool axial_alone, double cell) const {
-  const Sample start = samples_.empty() ? Sample{} : zero();
-  const auto strain = platen_strain(axis_);
-  LargestReading largest;
-  for (const Sample &s : samples_) {
-    if (axial_alone && s.axial_stage == 0) continue;
-    const double now = sign_ * (s.stress(axis_) - cell * s.cell_pressure);
-    if (std::isnan(now)) return {};
-    if (!(now <= largest.value)) largest = {now, s.time, sign_ * (s.*strain - start.*strain)};
-  }
-  return largest;
-}
-
-double Results::stress_at_end() const {
-  return samples_.empty() ? not_measured : sign_ * samples_.back().stress(axis_);
-}
-
-std::size_t Results::readings_to_peak() const {
-  if (!(peak_ > 0)) return 0;
-  std::size_t count = 0;
-  for (std::size_t k = 1; k <= peak_row(); ++k)
-    count += samples_[k].axial_stage != 0;
-  return count;
-}
-
-ModulusState Results::modulus_state() const {
-  ModulusState state;
-  const Crossing c = ascending(modulus_share);
-  if (!c.found) return state;
-  const Sample &s = samples_[c.after];
-  state.found = true;
-  state.stress = modulus_share * peak_;
-  state.time = s.time;
-  for (std::size_t k = 1; k <= c.after; ++k)
-    state.readings += samples_[k].axial_stage != 0;
-  state.broken = s.broken() - zero().broken();
-  const double plastic = s.plastic - zero().plastic;
-  if (s.bond > 0 && plastic > 0) state.plastic_share = plastic / s.bond;
-  state.loaded_on = s.loads != 0 && s.setting == zero().setting;
-  return state;
-}
-
-double Results::unequal(const Sample &a, const Sample &b, double weight) const {
-  const auto difference = [&](const Sample &s) {
-    return axis_ == 0   ? s.stress_left - s.stress_right
-           : axis_ == 1 ? s.stress_front - s.stress_back
-                        : s.stress_top - s.stress_bottom;
-  };
-  const auto mean = [&](double of_a, double of_b) { return (1 - weight) * of_a + weight * of_b; };
-  return std::abs(mean(difference(a), difference(b)) / mean(a.stress(axis_), b.stress(axis_)));
-}
-
-double Results::unequal_at_peak() const {
-  return peak_ > 0 ? unequal(samples_[peak_row()], samples_[peak_row()], 0) : not_measured;
-}
-
-double Results::unequal_at_modulus() const {
-  const Crossing c = ascending(modulus_share);
-  return c.found ? unequal(samples_[c.after - 1], samples_[c.after], c.weight) : not_measured;
-}
-
-double Results::strength() const {
-  return peak_ > 0 ? sign_ * samples_[peak_row()].stress(axis_) : not_measured;
-}
-double Results::deviator_strength() const {
-  return peak_ > 0 ? peak_ : not_measured;
-}
-double Results::confining_pressure() const {
-  if (samples_.empty()) return not_measured;
-  return (peak().reached() ? samples_[peak_row()] : samples_.back()).confining_pressure;
 }
 
 const Sample &Results::zero() const {
@@ -229,38 +176,64 @@ double Results::consolidation_end() const {
   return consolidated ? zero().time : not_measured;
 }
 
+// NaN where one of them is.
+LargestReading Results::largest_of(bool axial_alone, double cell) const {
+  LargestReading largest;
+  for (const Sample &s : samples_) {
+    if (axial_alone && s.axial_stage == 0) continue;
+    const double now = sign_ * (s.stress(axis_) - cell * s.cell_pressure);
+    if (std::isnan(now)) return {};
+    if (!(now <= largest.value)) largest = {now, s.time};
+  }
+  return largest;
+}
+
+double Results::stress_at_end() const {
+  return samples_.empty() ? not_measured : sign_ * samples_.back().stress(axis_);
+}
+double Results::strength() const {
+  return peak_ > 0 ? sign_ * samples_[peak_row_].stress(axis_) : not_measured;
+}
+double Results::deviator_strength() const {
+  return peak_ > 0 ? peak_ : not_measured;
+}
+double Results::confining_pressure() const {
+  if (samples_.empty()) return not_measured;
+  return (peak().reached() ? samples_[peak_row_] : samples_.back()).confining_pressure;
+}
 double Results::bulk_modulus() const {
   if (samples_.empty()) return not_measured;
   const Sample &end = zero();
   return end.cell_pressure > 0 ? end.cell_pressure / end.volumetric_strain : not_measured;
 }
-
-double Results::gained_at_peak(double Sample::*value) const {
-  return peak_ > 0 ? sign_ * (samples_[peak_row()].*value - zero().*value) : not_measured;
+double Results::strain_at_peak(double Sample::*strain) const {
+  return peak_ > 0 ? sign_ * (samples_[peak_row_].*strain - zero().*strain) : not_measured;
 }
-double Results::at_peak(double Sample::*value) const {
-  return peak_ > 0 ? samples_[peak_row()].*value : not_measured;
-}
-
-double Results::side_stress_at_peak(coupling::Side side) const {
-  switch (side) {
-    case coupling::Side::bottom:
-      return at_peak(&Sample::stress_bottom);
-    case coupling::Side::top:
-      return at_peak(&Sample::stress_top);
-    case coupling::Side::left:
-      return at_peak(&Sample::stress_left);
-    case coupling::Side::right:
-      return at_peak(&Sample::stress_right);
-    case coupling::Side::front:
-      return at_peak(&Sample::stress_front);
-    default:
-      return at_peak(&Sample::stress_back);
-  }
-}
-
 double Results::axial_time_to_peak() const {
-  return peak_ > 0 ? samples_[peak_row()].time - zero().time : not_measured;
+  return peak_ > 0 ? samples_[peak_row_].time - zero().time : not_measured;
+}
+
+std::size_t Results::readings_until(std::size_t row) const {
+  std::size_t count = 0;
+  for (std::size_t k = 1; k <= row; ++k)
+    count += samples_[k].axial_stage != 0;
+  return count;
+}
+std::size_t Results::readings_to_peak() const {
+  return peak_ > 0 ? readings_until(peak_row_) : 0;
+}
+
+double Results::unequal(const Sample &a, const Sample &b, double weight) const {
+  const auto difference = [&](const Sample &s) {
+    return axis_ == 0   ? s.stress_left - s.stress_right
+           : axis_ == 1 ? s.stress_front - s.stress_back
+                        : s.stress_top - s.stress_bottom;
+  };
+  const auto mean = [&](double of_a, double of_b) { return (1 - weight) * of_a + weight * of_b; };
+  return std::abs(mean(difference(a), difference(b)) / mean(a.stress(axis_), b.stress(axis_)));
+}
+double Results::unequal_at_peak() const {
+  return peak_ > 0 ? unequal(samples_[peak_row_], samples_[peak_row_], 0) : not_measured;
 }
 
 Results::Crossing Results::ascending(double share) const {
@@ -271,30 +244,45 @@ Results::Crossing Results::ascending(double share) const {
   }
   return {};
 }
-
 double Results::at(const Crossing &c, double Sample::*value) const {
   return (1 - c.weight) * samples_[c.after - 1].*value + c.weight * samples_[c.after].*value;
 }
-
 double Results::gained(const Crossing &c, double Sample::*value) const {
   return at(c, value) - zero().*value;
 }
-double Results::secant(double Sample::*value) const {
+
+ModulusState Results::modulus_state() const {
+  ModulusState state;
   const Crossing c = ascending(modulus_share);
-  return c.found ? (modulus_share * peak_ - stress(zero())) / (sign_ * gained(c, value)) : not_measured;
+  if (!c.found) return state;
+  const Sample &s = samples_[c.after];
+  state.found = true;
+  state.stress = modulus_share * peak_;
+  state.time = s.time;
+  state.unequal = unequal(samples_[c.after - 1], s, c.weight);
+  state.readings = readings_until(c.after);
+  state.broken = s.broken() - zero().broken();
+  const double plastic = s.plastic - zero().plastic;
+  if (s.bond > 0 && plastic > 0) state.plastic_share = plastic / s.bond;
+  state.loaded_on = s.loads != 0 && s.setting == zero().setting;
+  return state;
+}
+double Results::secant(double Sample::*strain) const {
+  const Crossing c = ascending(modulus_share);
+  return c.found ? (modulus_share * peak_ - stress(zero())) / (sign_ * gained(c, strain)) : not_measured;
+}
+double Results::bulging(double Sample::*across, double Sample::*along) const {
+  const Crossing c = ascending(modulus_share);
+  return c.found ? -gained(c, across) / gained(c, along) : not_measured;
 }
 double Results::lateral_over_axial() const {
   const Crossing c = ascending(modulus_share);
   return c.found ? at(c, &Sample::confining_pressure) / (modulus_share * peak_) : not_measured;
 }
-double Results::bulging(double Sample::*across, double Sample::*along) const {
-  const Crossing c = ascending(modulus_share);
-  return c.found ? of_axial(-gained(c, across) / gained(c, along)) : not_measured;
-}
 
 // Without an axial stage the energy balance is read from half the pressure on.
 std::size_t Results::whole_balance_from() const {
-  if (peak_ > 0) return ascending(0.1).after;
+  if (peak_ > 0) return ascending(whole_share).after;
   std::size_t k = 0;
   while (k + 1 < samples_.size() && samples_[k].confining_pressure < 0.5 * samples_.back().confining_pressure)
     ++k;
@@ -307,29 +295,14 @@ double Results::largest_over_work(double Sample::*value) const {
   Largest largest;
   for (std::size_t k = from; k < samples_.size(); ++k)
     largest.add(std::abs(samples_[k].*value));
-  return largest.value() / samples_[peak_ > 0 ? peak_row() : samples_.size() - 1].boundary;
-}
-
-double Results::energy_residual_relative() const {
-  return largest_over_work(&Sample::residual);
-}
-
-double Results::platen_unbalanced_work_relative() const {
-  return largest_over_work(&Sample::unbalanced_work);
-}
-
-double Results::kinetic_to_internal_max() const {
-  Largest largest; // NaN without a ledger
-  for (const Sample &sample : rise())
-    largest.add(sample.kinetic / sample.internal());
-  return largest.value();
+  return largest.value() / samples_[peak_ > 0 ? peak_row_ : samples_.size() - 1].boundary;
 }
 
 std::vector<Sample> Results::rise() const {
-  const Crossing c = ascending(0.1);
+  const Crossing c = ascending(whole_share);
   if (!c.found) return {};
-  const auto at = [&](std::size_t row) { return samples_.begin() + static_cast<std::ptrdiff_t>(row); };
-  return {at(c.after), at(peak_row() + 1)};
+  const auto row = [&](std::size_t k) { return samples_.begin() + static_cast<std::ptrdiff_t>(k); };
+  return {row(c.after), row(peak_row_ + 1)};
 }
 
 void Pattern::describe(Archive &archive) {

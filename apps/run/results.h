@@ -1,7 +1,6 @@
-// What a test says of its specimen: strength, moduli, damage; followed while the run goes on.
+// The record of a test: its samples, what is followed while it runs, and what follows from them.
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include "apps/run/history.h"
@@ -14,8 +13,6 @@
 
 namespace platen::apps {
 
-constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
-
 // Damage, opening, cones and cracks when the stress has fallen to 0.8 of the peak (or at the end of a run).
 struct Pattern {
   double time = not_measured, strain = not_measured; // s, platen strain along the loaded axis
@@ -27,18 +24,18 @@ struct Pattern {
 // Of the specimen where moduli are taken, at 40 % of the largest stress.
 struct ModulusState {
   bool found = false;
-  double stress = not_measured; // Pa, the deviator there
-  double time = not_measured;   // s
-  std::size_t readings = 0;     // of the axial stage until then
-  double broken = 0;            // bonds, since the axial stage began
-  double plastic_share = 0;     // plastic work over the energy of bonds; 0 without a ledger
-  bool loaded_on = false;       // the platens drove on there, with sides as where the strains begin
+  double stress = not_measured;  // Pa, the deviator there
+  double time = not_measured;    // s
+  double unequal = not_measured; // difference of the stresses on both platens over their mean
+  std::size_t readings = 0;      // of the axial stage until then
+  double broken = 0;             // bonds, since the axial stage began
+  double plastic_share = 0;      // plastic work over the energy of bonds; 0 without a ledger
+  bool loaded_on = false;        // the platens drove on there, with sides as where the strains begin
 };
 
 // A largest stress of history.csv and when it was; NaN where none was measured.
 struct LargestReading {
   double value = not_measured, time = not_measured; // Pa, s
-  double strain = not_measured; // of the platens since the axial stage began, in the sense of the test
 };
 
 // Which samples show what a specimen bears: those in which its stage loads the axis on. After another stage,
@@ -59,15 +56,17 @@ struct Emission {
   std::vector<dem::CrackPulse> pulses;
   std::vector<dem::AcousticEvent> events; // of a finished run
   dem::BValue before, after;              // of events that began before and after the peak
+  double largest_magnitude() const;       // NaN without events
+  int largest_cracks() const;             // of one event
 };
 
 class Results {
 public:
   // Stresses and strains are taken with this sign: +1 compression, -1 tension. Peak, moduli and strains are
   // of the deviator (stress minus confining pressure) along the axis that the test loads (0 x, 1 y, 2 z),
-  // from the end of the hydrostatic stage on, as laboratories count them. Damage of the ends, cones and what
-  // the gauge measures are of a specimen that is loaded along z; along another axis they are not measured.
-  // What moves with the platens after the peak is followed where the test tells a pattern.
+  // from the end of the hydrostatic stage on, as laboratories count them. Damage of the ends and cones are of
+  // a specimen that is loaded along z; along another axis they are not measured. What moves with the platens
+  // after the peak is followed where the test tells a pattern.
   // A peak is the largest deviator of the samples in which the specimen is loaded on, and all that is told of
   // it is of that sample; a fall shows there too, while the other sides are asked the same.
   explicit Results(bool tension = false, const dem::Soundness &soundness = {}, int axis = 2,
@@ -83,81 +82,67 @@ public:
   // Takes a sample in; true where it is the first below 0.8 of the peak, so that the pattern has been
   // measured.
   bool add(const Sample &sample, const coupling::PlatenTest &problem);
-  // The stress has fallen to this share of the peak, after it; where there are bonds, one has broken since
-  // the platens began.
-  bool fallen_to(double share) const;
   void listen(const dem::Crack &crack);
   // The state at the end, and events of the cracks so far.
   void finish(const coupling::PlatenTest &problem, const dem::EventWindow &window);
 
-  // Did the deviator reach its peak while the specimen was loaded on, or only its largest value?
-  PeakOfCurve peak() const;
-  bool is_ever_loaded_on() const; // in any sample
-  // Samples after the peak in which it is not, or by other sides: what falls there falls by command.
-  bool goes_on_by_command() const;
-  // In every sample, positive in the sense of the test; the deviator since the axial stage began.
-  LargestReading largest_stress() const { return largest_of(false, 0); }
-  LargestReading largest_deviator() const { return largest_of(true, 1); }
-  double stress_at_end() const; // Pa, positive in the sense of the test
-  ModulusState modulus_state() const;
-  std::size_t readings_to_peak() const; // of the axial stage, with that at the peak; 0 without one
-  // Difference of the stresses on both platens of the axis over their mean, where two press.
-  double unequal_at_peak() const;
-  double unequal_at_modulus() const; // where moduli are taken
-
-  // Of all samples; NaN where the run did not get there.
   int axis() const { return axis_; }
-  double strength() const;           // Pa, positive: the stress at the peak
-  double deviator_strength() const;  // Pa, positive: there
-  double confining_pressure() const; // Pa: there; without a peak at the end
-  // Pressure over volumetric strain (gauge) at the end of the hydrostatic stage; Pa.
-  double bulk_modulus() const;
-  double consolidation_end() const; // s; NaN of a test that begins with its axial stage
-  double strain_at_peak_platen() const { return gained_at_peak(platen_strain(axis_)); }
-  double strain_at_peak_gauge() const { return of_axial(gained_at_peak(&Sample::strain_gauge)); }
-  // Pa, secant at 40 % of the strength.
-  double youngs_modulus_gauge() const { return of_axial(secant(&Sample::strain_gauge)); }
-  double youngs_modulus_platen() const { return secant(platen_strain(axis_)); }
-  double lateral_over_axial() const; // pressure on a wall over axial stress, at 40 % of its largest value
-  // At 40 % of the strength: gauge, and Tannu's way.
-  double poisson_ratio() const { return bulging(&Sample::lateral_strain, &Sample::strain_gauge); }
-  double poisson_ratio_extremal() const {
-    return bulging(&Sample::lateral_extremal, &Sample::axial_extremal);
-  }
-  // From a tenth of the peak stress on: largest residual over the boundary work at the peak.
-  double energy_residual_relative() const;
-  // The same of the work on platens without inertia that is not in them; 0 where there are none.
-  double platen_unbalanced_work_relative() const;
-  double kinetic_to_internal_max() const; // from a tenth of the peak stress to the peak
-  double opening_at_peak() const { return at_peak(&Sample::opening); }               // m, of a disc
-  double deflection_at_peak() const { return at_peak(&Sample::deflection); }         // m, of a bent bar
-  double midspan_moment_at_peak() const { return at_peak(&Sample::midspan_moment); } // N m, of a bent bar
-  double side_stress_at_peak(coupling::Side side) const; // Pa; NaN where no platen presses
-  // Flexural stress over deflection, secant at 40 % of the strength; Pa/m.
-  double stress_per_deflection() const { return secant(&Sample::deflection); }
-  double time_at_peak() const { return at_peak(&Sample::time); } // s
-  double axial_time_to_peak() const;                             // s, from the end of the hydrostatic stage
-  // Samples from a tenth of the peak stress to the peak; none where there is no peak.
-  std::vector<Sample> rise() const;
-
+  const std::vector<Sample> &samples() const { return samples_; }
   const Pattern &pattern() const { return at_eighty_; } // NaN where the stress did not fall that far
   const Pattern &last_pattern() const { return last_; }
+  double barrel_at_peak() const { return barrel_; }
+  const Emission &emission() const { return emission_; }
   // Of each sphere the platen that it has moved with since the peak: 1 bottom, 2 top, 0 neither; all 0 until
   // the stress has fallen to 0.8 of the peak. Empty where the test tells no pattern.
   std::vector<int> moves_with(const coupling::PlatenTest &problem) const;
-  double barrel_at_peak() const { return barrel_; }
-  const Emission &emission() const { return emission_; }
-  const std::vector<Sample> &samples() const { return samples_; }
+
+  // Did the deviator reach its peak while the specimen was loaded on, or only its largest value?
+  PeakOfCurve peak() const;
+  // The stress has fallen to this share of the peak, after it; where there are bonds, one has broken since
+  // the platens began.
+  bool fallen_to(double share) const;
+  bool has_axial_stage() const;    // in any sample
+  bool is_ever_loaded_on() const;  // in any sample
+  bool goes_on_by_command() const; // samples after the peak in which it is not, or by other sides: what falls
+                                   // there falls by command
+  double consolidation_end() const; // s; NaN of a test that begins with its axial stage
+
+  // Figures of the curve; NaN where the run did not get there. Stresses (Pa) positive in the sense of the
+  // test.
+  LargestReading largest_stress() const { return largest_of(false, 0); }  // of every sample
+  LargestReading largest_deviator() const { return largest_of(true, 1); } // since the axial stage began
+  double stress_at_end() const;
+  double strength() const;           // the stress at the peak
+  double deviator_strength() const;  // there
+  double confining_pressure() const; // there; without a peak at the end
+  double bulk_modulus() const;       // pressure over volumetric strain at the end of the hydrostatic stage
+  double at_peak(double Sample::*value) const {
+    return peak_ > 0 ? samples_[peak_row_].*value : not_measured;
+  }
+  // Gained since the axial stage began, positive in the sense of the test.
+  double strain_at_peak(double Sample::*strain) const;
+  double time_at_peak() const { return at_peak(&Sample::time); } // s
+  double axial_time_to_peak() const;                             // s, from the end of the hydrostatic stage
+  std::size_t readings_to_peak() const; // of the axial stage, with that at the peak; 0 without one
+  double unequal_at_peak() const;       // as in ModulusState
+
+  // At 40 % of the strength: stress over what is gained; minus what is gained across over what is gained
+  // along; pressure on a wall over axial stress.
+  ModulusState modulus_state() const;
+  double secant(double Sample::*strain) const;
+  double bulging(double Sample::*across, double Sample::*along) const;
+  double lateral_over_axial() const;
+
+  // From a tenth of the peak stress on: largest residual over the boundary work at the peak; the same of the
+  // work on platens without inertia that is not in them, 0 where there are none.
+  double energy_residual_relative() const { return largest_over_work(&Sample::residual); }
+  double platen_unbalanced_work_relative() const { return largest_over_work(&Sample::unbalanced_work); }
+  // Samples from a tenth of the peak stress to the peak; none where there is no peak.
+  std::vector<Sample> rise() const;
 
   void describe(Archive &archive);
 
 private:
-  std::size_t peak_row() const { return peak_row_; }
-  bool counts(const Sample &sample, LoadedOn &loaded_on) const;
-  bool falls_in(const Sample &sample) const; // a fall in it is of the stress at the peak
-  void count_anew();
-  LargestReading largest_of(bool axial_alone, double cell) const; // less so much of the cell's pressure
-  double largest_over_work(double Sample::*value) const;
   // Samples on the ascending branch on both sides of a share of the strength, and the weight of the second.
   struct Crossing {
     bool found = false;
@@ -166,18 +151,17 @@ private:
   };
   Crossing ascending(double share) const;
   double at(const Crossing &crossing, double Sample::*value) const;
-  double stress(const Sample &s) const { return sign_ * s.deviator(axis_); }
-  double of_axial(double value) const { return axis_ == 2 ? value : not_measured; }
-  const Sample &zero() const; // where the strains of the axial stage begin
   double gained(const Crossing &crossing, double Sample::*value) const; // since zero()
-  double gained_at_peak(double Sample::*value) const;
   double unequal(const Sample &a, const Sample &b, double weight) const;
-  double at_peak(double Sample::*value) const;
-  // Stress over what is gained, and minus what is gained across over what is gained along, at the share of
-  // the strength where moduli are told.
-  double secant(double Sample::*value) const;
-  double bulging(double Sample::*across, double Sample::*along) const; // of a test along z
+  double largest_over_work(double Sample::*value) const;
+  LargestReading largest_of(bool axial_alone, double cell) const; // less so much of the cell's pressure
+  double stress(const Sample &s) const { return sign_ * s.deviator(axis_); }
+  const Sample &zero() const; // where the strains of the axial stage begin
+  std::size_t readings_until(std::size_t row) const;
   std::size_t whole_balance_from() const; // first sample where the balance says more than noise
+  bool counts(const Sample &sample, LoadedOn &loaded_on) const;
+  bool falls_in(const Sample &sample) const; // a fall in it is of the stress at the peak
+  void count_anew();
   bool has_fallen() const { return peak_ > 0 && measured_for_ == peak_; }
   Pattern measure_pattern(const coupling::PlatenTest &problem) const;
 

@@ -2,14 +2,12 @@ set(PLATEN_RUN_SOURCES
   run/app_output.cc
   run/change_on_the_way.cc
   run/changed_scene.cc
-  run/at_peak.cc
   run/compression.cc
   run/compression_files.cc
   run/compression_schedule.cc
   run/compression_setup.cc
   run/controls.cc
   run/estimate.cc
-  run/failure_summary.cc
   run/fields.cc
   run/frame.cc
   run/file_marks.cc
@@ -19,11 +17,9 @@ set(PLATEN_RUN_SOURCES
   run/pack.cc
   run/packing_cache.cc
   run/peak.cc
-  run/pressure_path.cc
   run/problem_setup.cc
   run/$<IF:$<BOOL:${PLATEN_RANKS}>,ranks,no_ranks>.cc
   run/quasi_static.cc
-  run/report_of_run.cc
   run/results.cc
   run/run_state.cc
   run/shared_packing.cc
@@ -32,4 +28,5 @@ set(PLATEN_RUN_SOURCES
   run/stages_of_run.cc
   run/state_at_peak.cc
   run/summary_of_run.cc
+  run/test_record.cc
   run/validity.cc)

@@ -1,29 +1,39 @@
 #include "apps/run/stages_of_run.h"
 
-#include "apps/run/controls.h"
 #include "base/largest.h"
 
 namespace platen::apps {
 namespace {
 
+Json controls_of_stage(const coupling::PlatenTest &problem, std::size_t stage) {
+  Json all = Json::array();
+  for (const coupling::Controlled &c : problem.program().controls(stage))
+    all.push_back({{"quantity", c.quantity},
+                   {"side", c.side},
+                   {"asked", c.asked},
+                   {"reached", c.reached},
+                   {"unit", c.unit},
+                   {"met", c.is_met()}});
+  return all;
+}
+
 // Null where a checkpoint before this was told says nothing.
-Json ended_by(std::size_t stage, const Scene &scene, const coupling::PlatenTest &problem,
-              const Results &results) {
-  const coupling::Program &program = problem.program();
+Json ended_by(std::size_t stage, const TestRecord &test) {
+  const coupling::Program &program = test.problem.program();
   if (stage < program.stages_ended()) {
     const std::string word = program.stage(stage).ended_by();
     return word.empty() ? Json() : Json(word);
   }
-  const double share = scene.loading.stop_at_residual;
-  return share > 0 && results.fallen_to(share) ? "stop at residual" : "stopped";
+  const double share = test.scene.loading.stop_at_residual;
+  return share > 0 && test.results.fallen_to(share) ? "stop at residual" : "stopped";
 }
 
 } // namespace
 
-void add_stages(Json &to, const Scene &scene, const coupling::PlatenTest &problem, const Results &results) {
-  if (problem.settings().loading.stages.empty()) return;
+Json stages_of(const TestRecord &test) {
+  const coupling::PlatenTest &problem = test.problem;
   Json stages = Json::array();
-  const std::vector<Sample> &samples = results.samples();
+  const std::vector<Sample> &samples = test.results.samples();
   Largest largest;
   double largest_time = not_measured;
   for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -33,7 +43,7 @@ void add_stages(Json &to, const Scene &scene, const coupling::PlatenTest &proble
     if (k + 1 < samples.size() && samples[k + 1].stage == s.stage) continue;
     Json stage;
     stage["stage"] = static_cast<int>(s.stage);
-    stage["ended_by"] = ended_by(static_cast<std::size_t>(s.stage) - 1, scene, problem, results);
+    stage["ended_by"] = ended_by(static_cast<std::size_t>(s.stage) - 1, test);
     stage["consolidation"] =
         problem.program().stage(static_cast<std::size_t>(s.stage) - 1).is_consolidation();
     stage["end_s"] = s.time;
@@ -53,7 +63,19 @@ void add_stages(Json &to, const Scene &scene, const coupling::PlatenTest &proble
     stages.push_back(stage);
     largest = {};
   }
-  to["stages"] = stages;
+  return stages;
+}
+
+Json controls_of(const TestRecord &test) {
+  const coupling::Program &program = test.problem.program();
+  Json all = Json::array();
+  for (std::size_t stage = 0; stage <= program.stage_number(); ++stage)
+    for (const Json &control : controls_of_stage(test.problem, stage)) {
+      Json one{{"stage", program.stage(stage).name()}};
+      one.update(control);
+      all.push_back(one);
+    }
+  return all;
 }
 
 } // namespace platen::apps

@@ -1,17 +1,17 @@
-// What a run says of its loading stages.
+// What a run says of its loading stages: what each asked and reached.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
-#include "apps/run/results.h"
-#include "apps/scene/scene.h"
-#include "coupling/platen_test.h"
+#include "apps/output/summary.h"
+#include "apps/run/test_record.h"
 
 namespace platen::apps {
 
-// Adds `stages`, of those that the scene writes: where each ended, by what, and what it asked and reached.
-// The one that a run was in when it stopped ended by "stopped", or by "stop at residual".
-void add_stages(nlohmann::ordered_json &to, const Scene &scene, const coupling::PlatenTest &problem,
-                const Results &results);
+// Of those that the scene writes: where each ended, by what, and what it asked and reached. The one that a
+// run was in when it stopped ended by "stopped", or by "stop at residual".
+Json stages_of(const TestRecord &test);
+
+// Of a test whose scene writes none: what was asked and reached, by the names of its stages. Each is
+// quantity, side, asked, reached, unit, met (within 1 %), as it is now or was at the end of its stage.
+Json controls_of(const TestRecord &test);
 
 } // namespace platen::apps

@@ -53,7 +53,8 @@ void declare_output(Parameters &parameters, Output &output, Checkpoint &checkpoi
       .unless("Output/Fields", {"off", "false", "no"});
   section.entry("Fields", output.fields, "Write frames for ParaView.");
   section.number("Sound share", output.sound_share, between(0.01, 1),
-                 "Share of its bonds that a sphere has kept to be of a cone by damage.");
+                 "Share of its bonds that a sphere of an intact piece has kept: two pieces from platen to "
+                 "platen are splitting.");
   section.number(
       "Event reach", output.event_reach, between(0.1, 1000),
       "Cracks this near are of one acoustic event, in mean sphere radii; larger joins more of them.");

@@ -43,7 +43,7 @@ Json tell_outcome(const Scene &scene, StudyKind kind, const std::string &head, c
   if (compared && !StudyTables::peaked(outcome.summary))
     log.warning("{}: it reached no peak up to Loading/Target strain: it has no strength to compare",
                 run.name);
-  Json expectations = named(run.name, check_expectations(scene, outcome.summary).list);
+  Json expectations = named(run.name, check_expectations(scene, outcome.summary));
   for (const std::string &line : missed_in(expectations))
     log.error("expected: {}", line);
   return expectations;

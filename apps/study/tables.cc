@@ -18,8 +18,7 @@ const std::vector<std::string> figures = cells_of(
     "broken_shear,end_damage_top,end_damage_bottom,middle_damage,end_spread,cone_top/half_angle_deg,"
     "cone_bottom/half_angle_deg,final_cone_top/half_angle_deg,final_cone_bottom/half_angle_deg,"
     "dead_zone_top/base_ratio,dead_zone_bottom/base_ratio,dead_zone_top/volume_fraction,"
-    "dead_zone_bottom/volume_fraction,sound_cone_top/half_angle_deg,sound_cone_bottom/half_angle_deg,"
-    "final_sound_cone_top/half_angle_deg,final_sound_cone_bottom/half_angle_deg,"
+    "dead_zone_bottom/volume_fraction,"
     "acoustic/b_before,acoustic/b_after,kinetic_to_internal_max,wave_crossings_to_peak,"
     "energy_residual_relative");
 // And those that do.

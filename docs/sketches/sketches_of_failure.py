@@ -2,7 +2,7 @@
 
 import math
 
-from sketch import BLUE, ORANGE, PALE_BLUE, PALE_GREEN, PALE_ORANGE, PALE_RED, RED, SHADE, Sketch, by_name
+from sketch import BLUE, ORANGE, PALE_BLUE, PALE_ORANGE, PALE_RED, RED, SHADE, Sketch, by_name
 
 
 def end_spread():
@@ -77,20 +77,6 @@ def dead_zone():
     return s
 
 
-def sound_cone():
-    s = Sketch("Sound cone: the piece on a platen whose spheres have kept their bonds")
-    s.specimen_between_platens()
-    s.path([(64, 30), (156, 30), (142, 46), (134, 68), (120, 74), (110, 94), (98, 70), (86, 64), (78, 44)],
-           fill=PALE_GREEN, stroke="#3c7a3a", close=True)
-    s.path([(62, 30), (158, 30), (110, 96)], stroke=ORANGE, dash="4 3", close=True)
-    for x, y in ((75, 110), (90, 130), (105, 115), (120, 140), (140, 105), (148, 130), (100, 148), (78, 86), (146, 82)):
-        s.line(x - 4, y + 3, x + 4, y - 3, stroke=RED)
-    s.words(178, 48, "sound piece", fill="#3c7a3a")
-    s.words(178, 76, "fitted cone", fill=ORANGE)
-    s.words(178, 126, "broken", fill=RED)
-    return s
-
-
 def pattern():
     s = Sketch("Patterns of failure: cones, shear plane, splitting, crushing", 400, 150)
     for k, name in enumerate(("cones", "shear plane", "splitting", "crushing")):
@@ -133,4 +119,4 @@ def acoustic_event():
     return s
 
 
-FAILURE = by_name(end_spread, barrel, damage, cone, dead_zone, sound_cone, pattern, fragments, acoustic_event)
+FAILURE = by_name(end_spread, barrel, damage, cone, dead_zone, pattern, fragments, acoustic_event)

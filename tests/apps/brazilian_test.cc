@@ -57,7 +57,7 @@ TEST_F(Brazilian, a_disc_splits_along_its_loaded_diameter) {
   const auto opening = column_of(folder_ / "disc/history.csv", "opening_m");
   EXPECT_GT(opening.back(), 5 * s["opening_at_peak_m"].get<double>()); // the halves part
   // A disc has events, but no cones.
-  for (const char *key : {"cone_top", "cone_bottom", "sound_cone_top", "pattern", "final_pattern"})
+  for (const char *key : {"cone_top", "cone_bottom", "pattern", "final_pattern"})
     EXPECT_TRUE(s.at(key).is_null()) << key;
   EXPECT_EQ(s["acoustic"]["cracks"], s["broken_tension"].get<int>() + s["broken_shear"].get<int>());
 }

@@ -89,11 +89,11 @@ TEST_F(Errors, faulty_scenes_are_refused_by_file_and_line) {
   refuse_scene(
       "subsection Effects\n  set Gravity = on\nend\nsubsection Loading\n"
       "  set Start strain = 0.001\nend\n",
-      {"bad.prm:6", "does not go with Effects/Gravity = on"});
+      {"bad.prm:6", "does not go with gravity. Allowed: 0."});
   refuse_scene(
       "subsection Effects\n  set Bond = yielding parallel bond\nend\nsubsection Loading\n"
       "  set Start strain = 0.001\nend\n",
-      {"bad.prm:6", "bonds without a memory: Effects/Bond = yielding parallel bond answers"});
+      {"bad.prm:6", "needs bonds without a memory: theirs answer to the whole path. Allowed: 0."});
   refuse_scene("subsection Loading\n  set Test = hydrostatic\nend\n",
                {"bad.prm:3", "needs Loading/Confinement = particles, sleeve"});
   refuse_scene("subsection Loading\n  set Confinement = particles\nend\n",

@@ -83,7 +83,8 @@ protected:
     for (const Sample &s : samples)
       results.add(s, problem_);
     results.finish(problem_, {1e-3, 1e-5});
-    return summary_of_run("done", scene_, problem_, results, {});
+    const RunCosts costs;
+    return summary_of_run("done", {scene_, problem_, results, costs});
   }
   static bool is_there(const HistoryColumn &column, const coupling::PlatenTest &problem) {
     return column.there == nullptr || column.there(problem);
@@ -194,13 +195,12 @@ TEST_F(WithoutLedger, energies_are_missing_and_speak_against_no_figure) {
 
 // Of a run that was cut off before its peak nobody knows how fast it would have come there.
 TEST(Slow, is_not_judged_before_a_run_has_come_to_its_end) {
-  const Results without_peak;
   for (const std::string by : {"signal", "failure", "script"})
     for (const std::string missed : {"", "; not reached: top stress of stage 1"})
-      EXPECT_FALSE(knows_slowness(without_peak, by + missed)) << by << missed;
-  EXPECT_FALSE(knows_slowness(without_peak, ""));
+      EXPECT_FALSE(knows_slowness(false, by + missed)) << by << missed;
+  EXPECT_FALSE(knows_slowness(false, ""));
   for (const char *by : {"target", "target; not reached: top stress of stage 1", "stop at residual"})
-    EXPECT_TRUE(knows_slowness(without_peak, by)) << by;
+    EXPECT_TRUE(knows_slowness(false, by)) << by;
 }
 
 // Each bound by itself: as much as is allowed, and a hundredth more.

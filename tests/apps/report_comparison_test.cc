@@ -66,14 +66,12 @@ TEST(ReportComparison, cones_b_values_and_patterns_have_rows_where_a_run_tells_t
                                        {"cone_bottom", {{"half_angle_deg", 41.26}}},
                                        {"dead_zone_top", {{"base_ratio", 0.41}}},
                                        {"dead_zone_bottom", {{"base_ratio", 0.97}}},
-                                       {"sound_cone_top", {{"half_angle_deg", 52.0}}},
                                        {"acoustic", {{"b_before", 1.5}, {"b_after", nullptr}}}});
   const TableOfFigures table = table_of_figures({told, dry});
   EXPECT_EQ(row_titled(table, "pattern"), (std::vector<std::string>{"pattern", "cones", "-", "-"}));
   EXPECT_EQ(row_titled(table, "half-angle of the bottom cone")[1], "41.3");
   EXPECT_TRUE(row_titled(table, "half-angle of the top cone (degrees)").empty());
   EXPECT_EQ(row_titled(table, "base of the worse end's cone, r0")[1], "0.41"); // the worse end decides
-  EXPECT_EQ(row_titled(table, "half-angle of the top cone by damage")[1], "52.0");
   EXPECT_EQ(row_titled(table, "b-value before the peak")[1], "1.50");
   EXPECT_TRUE(row_titled(table, "b-value after the peak").empty());
 }

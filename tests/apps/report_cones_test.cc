@@ -74,40 +74,25 @@ nlohmann::json told(double half_angle) {
 TEST(ReportCones, what_was_not_looked_for_is_not_told_as_absent) {
   using V = FittedCone::Verdict;
   report::Run run;
-  const auto verdict = [&](ConeKind kind, ConeTime time) {
-    return cone_of(run, kind, Side::top, time).verdict;
-  };
+  const auto at = [&](Side end, ConeTime time) { return cone_of(run, end, time); };
   run.summary = {{"cone_top", nullptr}, {"cone_bottom", nullptr}}; // of a build that did not look
-  EXPECT_EQ(verdict(ConeKind::by_damage, ConeTime::fall), V::not_measured);
+  EXPECT_EQ(at(Side::top, ConeTime::fall).verdict, V::not_measured);
   run.summary["pattern"] = "crushing"; // of one that looked by damage alone
-  EXPECT_EQ(verdict(ConeKind::by_damage, ConeTime::fall), V::none);
-  EXPECT_EQ(verdict(ConeKind::by_displacement, ConeTime::fall), V::not_measured);
-  EXPECT_EQ(verdict(ConeKind::by_damage, ConeTime::end), V::not_measured);
+  run.summary["cone_bottom"] = told(50);
+  for (const Side end : {Side::top, Side::bottom})
+    EXPECT_EQ(at(end, ConeTime::fall).verdict, V::not_measured);
+  run.summary["dead_zone_top"] = nullptr; // the stress did not fall
+  EXPECT_EQ(at(Side::top, ConeTime::fall).verdict, V::not_measured);
+  run.summary["dead_zone_top"] = {{"base_ratio", 0.2}};
+  EXPECT_EQ(at(Side::top, ConeTime::fall).verdict, V::none);
+  EXPECT_EQ(at(Side::top, ConeTime::end).verdict, V::not_measured);
   run.summary["final_pattern"] = "cones";
   run.summary["final_cone_top"] = told(45);
-  const FittedCone cone = cone_of(run, ConeKind::by_damage, Side::top, ConeTime::end);
+  run.summary["final_dead_zone_top"] = {{"base_ratio", 0.9}};
+  const FittedCone cone = at(Side::top, ConeTime::end);
   EXPECT_EQ(cone.verdict, V::found);
   EXPECT_NEAR(cone.half_angle, 0.785398, 1e-6);
   EXPECT_EQ(words_of(cone), "45 degrees (confidence 0.50)");
-}
-
-TEST(ReportCones, both_kinds_are_kept_apart) {
-  using V = FittedCone::Verdict;
-  report::Run run;
-  run.summary = {{"pattern", "undecided"},
-                 {"cone_top", nullptr},
-                 {"cone_bottom", told(30)},
-                 {"sound_cone_top", told(50)},
-                 {"sound_cone_bottom", nullptr},
-                 {"dead_zone_top", nullptr},
-                 {"dead_zone_bottom", {{"base_ratio", 0.9}}}};
-  const auto at = [&](ConeKind kind, Side end) { return cone_of(run, kind, end, ConeTime::fall); };
-  EXPECT_EQ(at(ConeKind::by_displacement, Side::top).verdict, V::not_measured); // the stress did not fall
-  EXPECT_NEAR(at(ConeKind::by_displacement, Side::bottom).half_angle, 30 * degree, 1e-9);
-  EXPECT_NEAR(at(ConeKind::by_damage, Side::top).half_angle, 50 * degree, 1e-9);
-  EXPECT_EQ(at(ConeKind::by_damage, Side::bottom).verdict, V::none);
-  run.summary["dead_zone_top"] = {{"base_ratio", 0.2}};
-  EXPECT_EQ(at(ConeKind::by_displacement, Side::top).verdict, V::none);
 }
 
 // Both apexes lie in it, and the axes: after the turn they are at y = 0.

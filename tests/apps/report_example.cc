@@ -290,13 +290,10 @@ void write_summary(const fs::path &folder, const Example &example) {
                             {"barrel_at_peak", 0.6}};
   if (run.hourglass) {
     summary["pattern"] = summary["final_pattern"] = "cones";
-    for (const std::string key :
-         {"cone_top", "cone_bottom", "final_cone_top", "final_cone_bottom", "sound_cone_top",
-          "sound_cone_bottom", "final_sound_cone_top", "final_sound_cone_bottom"}) {
+    for (const std::string key : {"cone_top", "cone_bottom", "final_cone_top", "final_cone_bottom"}) {
       const bool top = key.find("top") != std::string::npos;
-      if (const auto cone = key.find("cone"); key.find("sound") == std::string::npos)
-        summary[key.substr(0, cone) + "dead_zone" + key.substr(cone + 4)] = {
-            {"base_ratio", top ? 0.9 : 0.95}};
+      const auto cone = key.find("cone");
+      summary[key.substr(0, cone) + "dead_zone" + key.substr(cone + 4)] = {{"base_ratio", top ? 0.9 : 0.95}};
       summary[key] = {{"half_angle_deg", top ? 45 : 30},
                       {"confidence", 0.8},
                       {"apex_m", {0, 0, run.first_height + (top ? 0.7 : 0.3) * run.height}},

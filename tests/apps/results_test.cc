@@ -1,11 +1,12 @@
 // When a run has its peak behind it.
 #include "apps/run/results.h"
-#include "apps/run/failure_summary.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "apps/run/validity.h"
 #include "coupling/program_of_test.h"
 #include "dem/packing/advancing_front.h"
 #include "tests/coupling/elastic_problem.h"
@@ -130,12 +131,11 @@ TEST_F(Asked, figures_at_the_peak_are_of_one_sample_and_the_largest_of_the_colum
   EXPECT_NEAR(results_.strength(), 42e6, 1);
   EXPECT_NEAR(results_.deviator_strength(), 40e6, 1);
   EXPECT_NEAR(results_.confining_pressure(), 2e6, 1);
-  EXPECT_NEAR(results_.strain_at_peak_platen(), 1e-3, 1e-15);
-  EXPECT_EQ(results_.opening_at_peak(), 1);
+  EXPECT_NEAR(results_.strain_at_peak(&Sample::strain_platen), 1e-3, 1e-15);
+  EXPECT_EQ(results_.at_peak(&Sample::opening), 1);
   EXPECT_EQ(results_.time_at_peak(), 2);
   EXPECT_NEAR(results_.largest_stress().value, 47e6, 1);
   EXPECT_EQ(results_.largest_stress().time, 4);
-  EXPECT_NEAR(results_.largest_stress().strain, 1.2e-3, 1e-15);
   EXPECT_NEAR(results_.largest_deviator().value, 41e6, 1);
   EXPECT_EQ(results_.largest_deviator().time, 5);
 }
@@ -226,20 +226,20 @@ TEST_F(Along, strength_and_strain_are_of_the_axis_that_is_driven) {
   for (Results *results : {&x, &y, &z})
     time_ = 0, crush(*results);
   EXPECT_NEAR(x.strength(), 20e6, 1);
-  EXPECT_NEAR(x.strain_at_peak_platen(), 1e-3, 1e-15); // since the end of the consolidation
-  EXPECT_NEAR(x.youngs_modulus_platen(), (8e6 - 1e6) / (1e-4 + 4e-4 * 7 / 9 - 1e-4), 1); // since then
+  EXPECT_NEAR(x.strain_at_peak(&Sample::strain_x), 1e-3, 1e-15); // since the end of the consolidation
+  EXPECT_NEAR(x.secant(&Sample::strain_x), (8e6 - 1e6) / (1e-4 + 4e-4 * 7 / 9 - 1e-4), 1); // since then
   EXPECT_EQ(x.time_at_peak(), 3);
   EXPECT_TRUE(x.fallen_to(0.8));
   EXPECT_FALSE(x.fallen_to(0.7));
   EXPECT_NEAR(y.strength(), 30e6, 1);
-  EXPECT_NEAR(y.strain_at_peak_platen(), 2.2e-3, 1e-15);
+  EXPECT_NEAR(y.strain_at_peak(&Sample::strain_y), 2.2e-3, 1e-15);
   EXPECT_TRUE(y.fallen_to(0.7));
   EXPECT_NEAR(z.strength(), 80e6, 1);
-  EXPECT_NEAR(z.strain_at_peak_platen(), 7e-3, 1e-15);
+  EXPECT_NEAR(z.strain_at_peak(&Sample::strain_platen), 7e-3, 1e-15);
   EXPECT_FALSE(z.fallen_to(0.9));
-  EXPECT_EQ(x.side_stress_at_peak(coupling::Side::top), 80e6);
+  EXPECT_EQ(x.at_peak(stress_of(coupling::Side::top)), 80e6);
   EXPECT_NEAR(x.unequal_at_peak(), 0.2, 1e-12); // 1.1 and 0.9 of the mean
-  EXPECT_NEAR(x.unequal_at_modulus(), 0.2, 1e-12);
+  EXPECT_NEAR(x.modulus_state().unequal, 0.2, 1e-12);
   EXPECT_NEAR(y.unequal_at_peak(), 0.4, 1e-12);
   EXPECT_EQ(z.unequal_at_peak(), 0);
   EXPECT_EQ(x.readings_to_peak(), 2u); // the first row is of the consolidation
@@ -267,10 +267,18 @@ TEST_F(Along, what_is_measured_along_z_is_not_measured_along_x) {
   crush(x), time_ = 0, crush(z);
   for (Results *results : {&x, &z}) {
     const dem::FailureMeasures &failure = results->last_pattern().failure;
-    for (const double value :
-         {failure.broken_share, failure.damage.end_top, failure.damage.middle,
-          results->strain_at_peak_gauge(), results->youngs_modulus_gauge(), results->poisson_ratio()})
+    for (const double value : {failure.broken_share, failure.damage.end_top, failure.damage.middle})
       EXPECT_EQ(std::isnan(value), results == &x);
+    const Scene scene;
+    const RunCosts costs;
+    const Reasons reasons = reasons_against({scene, problem_, *results, costs}, figures(), Json::object());
+    for (const char *gauged : {"strain_at_peak_gauge", "youngs_modulus_gauge_pa", "poisson_ratio",
+                               "poisson_ratio_extremal", "barrel_at_peak"}) {
+      const auto found = reasons.find(gauged);
+      const bool told = found != reasons.end() && std::count(found->second.begin(), found->second.end(),
+                                                             "the gauge is of tests along z") == 1;
+      EXPECT_EQ(told, results == &x) << gauged;
+    }
   }
   EXPECT_TRUE(std::isnan(x.pattern().failure.broken_share));
 }

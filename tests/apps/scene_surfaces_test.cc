@@ -5,7 +5,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "apps/io_folder.h"
 #include "apps/programs.h"
 #include "apps/scene/command_line.h"
 #include "apps/scene/parameters.h"

@@ -1,0 +1,486 @@
+// Figures: what summary.json says of a test between platens, each said once, in its order. A row is the key,
+// the unit, what the figure needs, how the screen shows it, which columns of history.csv are its own, and how
+// it is computed.
+//
+// From these rows follow summary.json and its `validity` (summary_of_run.cc; reasons against figures:
+// validity.cc), the screen, the entries of section Expect, and what is null in tests of other programs.
+// docs/outputs.md, which says what each means, is compared with them (scripts/check_outputs.py). How a figure
+// is computed is a generic lambda: it is compiled where a test is asked and not where keys and units are
+// listed alone, so that the reader of scenes is linked with nothing of a test.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/output/summary.h"
+#include "apps/run/history.h"
+#include "apps/scene/scene.h"
+#include "base/pi.h"
+#include "coupling/side.h"
+#include "dem/measure/acoustic_emission.h"
+#include "dem/measure/cracks.h"
+#include "dem/measure/dead_zone.h"
+
+namespace platen::apps {
+
+// What a figure needs to be valid. One that needs any of the first five is read off history.csv: it rests on
+// all columns but those that rows name as their own.
+enum Need : unsigned {
+  history = 1u << 0,
+  peak = 1u << 1,           // a peak that was reached
+  modulus = 1u << 2,        // a stress in which the specimen is elastic
+  damage = 1u << 3,         // a stress that has fallen to 0.8 of the peak
+  consolidation = 1u << 4,  // a hydrostatic stage
+  elastic = 1u << 5,        // no bond that has broken or yielded, where there is no peak
+  bare = 1u << 6,           // an even stress, with nothing on the sides that holds them
+  stiffness = 1u << 7,      // no more than the bonds can have
+  ratio = 1u << 8,          // what an elastic solid can have
+  section = 1u << 9,        // a section that is filled
+  gauge = 1u << 10,         // spheres in the middle half
+  along_z = 1u << 11,       // a test along z
+  closure = 1u << 12,       // a strain of the platens that is one of the material
+  strain = 1u << 13,        // a strain that is one of the material
+  compressed = 1u << 14,    // a test that presses the specimen along its axis
+  top_cone = 1u << 15,      // a cone on top
+  bottom_cone = 1u << 16,   // on the bottom
+  of_machine = 1u << 17,    // costs: Expect does not name them
+  of_every_test = 1u << 18, // also told, or null, by programs that test without platens
+};
+constexpr unsigned read_off = history | peak | modulus | damage | consolidation;
+constexpr unsigned youngs = modulus | elastic | bare | stiffness | section | of_every_test,
+                   poissons = modulus | elastic | bare | ratio | along_z;
+
+// A line on the screen: "  strength    43.12 MPa".
+struct Line {
+  std::string label = {};    // "": not shown
+  const char *format = "{}"; // of the number times `factor`
+  double factor = 1;
+};
+
+struct Figure {
+  std::string key;          // of summary.json; a member of an object after "/"
+  std::string unit;         // SI; "" of words, lists and objects
+  unsigned needs = 0;       // of Need
+  Line line = {};           // on the screen
+  std::string columns = {}; // its own ones of history.csv, which all other figures do without
+  bool is_number() const { return !unit.empty(); }
+  bool is_read_off() const { return (needs & read_off) != 0; }
+  bool is_headline() const { return (needs & read_off & ~unsigned{history}) != 0; } // named in `validity`
+};
+
+// Takes the rows one after the other: `take(figure, value)`, and `where(holds)`, by which those that follow
+// are told where it holds. `value` and `holds` are called with a TestRecord (test_record.h), or not at all.
+template <class Taker>
+struct FigureList {
+  template <class Value>
+  void add(const std::string &key, const char *unit, Value value) {
+    add(key, unit, 0, value);
+  }
+  template <class Value>
+  void add(const std::string &key, const char *unit, unsigned needs, Value value) {
+    add(key, unit, needs, {}, value);
+  }
+  template <class Value>
+  void add(const std::string &key, const char *unit, unsigned needs, const Line &line, Value value) {
+    add(key, unit, needs, line, "", value);
+  }
+  template <class Value>
+  void add(const std::string &key, const char *unit, unsigned needs, const Line &line, const char *columns,
+           Value value) {
+    static_cast<Taker &>(*this).take({key, unit, needs, line, columns}, value);
+  }
+  void add_object(const std::string &key, unsigned needs = 0) { // null, until a member is added
+    add(key, "", needs, [](auto &) { return Json(); });
+  }
+};
+constexpr auto everywhere = [](const auto &) { return true; };
+constexpr double degree = pi / 180;
+
+inline Json list_of(const Vector3 &v) {
+  return Json::array({v.x, v.y, v.z});
+}
+inline Json word_or_null(const std::string &word) {
+  return word.empty() ? Json() : Json(word);
+}
+
+template <class List>
+void list_run(List &list) {
+  list.add("effects_off", "", [](auto &t) { return effects_off(t.scene); });
+  list.add("ended_by", "", [](auto &t) { return word_or_null(t.costs.ended_by); });
+  list.add("test", "", 0, {"test"}, [](auto &t) { return word_of(loading_tests, t.scene.loading.test); });
+  list.add("loaded_axis", "", 0, {"loaded along"},
+           [](auto &t) { return std::string(1, "xyz"[t.results.axis()]); });
+  list.add("particles", "1", of_every_test, [](auto &t) { return t.model.particles.size(); });
+  list.add("bonds", "1", of_every_test, [](auto &t) { return t.bonds(); });
+  list.add("coordination_number", "1", of_every_test,
+           [](auto &t) { return t.problem.coordination_number(); });
+  list.add("packing_fraction", "1", of_every_test,
+           [](auto &t) { return t.problem.facts().packing_fraction; });
+  list.add("mean_radius_m", "m", [](auto &t) { return t.problem.facts().mean_radius; });
+  list.where([](auto &t) { return t.tiling.tiles > 0; });
+  list.add("tiles", "1", [](auto &t) { return t.tiling.tiles; });
+  list.add("tile_period_m", "m", [](auto &t) { return t.tiling.period; });
+  list.where(everywhere);
+  list.add("section/over", "", [](auto &t) { return t.problem.section_share() == 1 ? "nominal" : "net"; });
+  list.add("section/area_m2", "m2", [](auto &t) { return t.problem.nominal_area(); });
+  list.add("section/filled_mean", "1", [](auto &t) { return t.problem.section().mean; });
+  list.add("section/filled_least", "1", [](auto &t) { return t.problem.section().least; });
+  list.add("section/filled_largest", "1", [](auto &t) { return t.problem.section().largest; });
+  list.add("grain_density_kg_m3", "kg/m3", [](auto &t) { return t.problem.facts().grain_density; });
+  list.add("seated_top", "1", [](auto &t) { return t.problem.top().layer().seats(); });
+  list.add("seated_bottom", "1", [](auto &t) { return t.problem.bottom().layer().seats(); });
+}
+
+template <class List>
+void list_costs(List &list) {
+  constexpr unsigned cost = of_machine, shared_cost = of_machine | of_every_test;
+  list.add("steps", "1", of_every_test, {"steps", "{:.0f}"}, [](auto &t) { return t.problem.steps(); });
+  list.add("time_step_s", "s", of_every_test, [](auto &t) { return t.problem.time_step(); });
+  list.add("time_step_reason", "", of_every_test, [](auto &t) { return t.problem.time_step_reason(); });
+  list.add("instruction_set", "", [](auto &t) { return name(t.model.settings().instruction_set); });
+  list.add("threads", "1", shared_cost, [](auto &t) { return t.costs.threads; });
+  list.add("wall_seconds", "s", shared_cost, {"seconds", "{:.1f}"},
+           [](auto &t) { return t.costs.wall_seconds; });
+  list.add("setup_seconds", "s", shared_cost, [](auto &t) { return t.costs.setup_seconds; });
+  list.add("particle_steps_per_second", "1/s", shared_cost, {"sphere-steps in a second", "{:.3g} M", 1e-6},
+           [](auto &t) { return t.particle_steps_per_second(); });
+  list.add("stage_seconds", "", shared_cost, [](auto &t) { return t.stage_seconds(); });
+  list.add("peak_memory_bytes", "B", shared_cost, [](auto &t) { return t.peak_memory_bytes(); });
+  list.add("bytes_per_particle", "B", cost, [](auto &t) { return t.model.particles.table.bytes_per_row(); });
+  list.add("bytes_per_bond", "B", cost, [](auto &t) { return t.bytes_per_bond(); });
+  list.add("bytes_in_columns_and_search", "B", cost, [](auto &t) { return t.problem.bytes(); });
+}
+
+// Of the history, without a specimen that fails. Null where nothing loads it along its axis.
+template <class List>
+void list_peak(List &list) {
+  list.add("peak_reached", "", history,
+           [](auto &t) { return t.is_loaded() ? Json(t.peak.reached()) : Json(); });
+  list.add("peak_is", "", history, {"peak"},
+           [](auto &t) { return t.is_loaded() ? Json(word_of(t.peak.kind)) : Json(); });
+  list.add("peak_time_s", "s", history,
+           [](auto &t) { return t.peak.reached() ? t.results.time_at_peak() : not_measured; });
+  list.add("fall_time_s", "s", history,
+           [](auto &t) { return t.peak.reached() ? t.results.pattern().time : not_measured; });
+  list.add("largest_stress_pa", "Pa", history, {"largest stress", "{:.2f} MPa", 1e-6},
+           [](auto &t) { return t.results.largest_stress().value; });
+  list.add("largest_stress_time_s", "s", history, [](auto &t) { return t.results.largest_stress().time; });
+  list.add("stress_at_end_pa", "Pa", history, [](auto &t) { return t.results.stress_at_end(); });
+  list.add("strength_pa", "Pa", peak | section | of_every_test, {"strength", "{:.2f} MPa", 1e-6},
+           [](auto &t) { return t.results.strength(); });
+  list.add("strain_at_peak_platen", "1", peak | closure | strain | of_every_test,
+           {"strain at peak (platen)", "{:.5f}"},
+           [](auto &t) { return t.results.strain_at_peak(platen_strain(t.results.axis())); });
+  list.add("strain_at_peak_gauge", "1", peak | strain | gauge | along_z | of_every_test,
+           {"strain at peak (gauge)", "{:.5f}"}, "axial_strain_gauge",
+           [](auto &t) { return t.results.strain_at_peak(&Sample::strain_gauge); });
+  list.add("consolidation_end_time_s", "s", history, [](auto &t) { return t.results.consolidation_end(); });
+}
+
+// Secants at 40 % of the largest stress.
+template <class List>
+void list_moduli(List &list) {
+  list.add("youngs_modulus_gauge_pa", "Pa", youngs | gauge | along_z,
+           {"Young's modulus (gauge)", "{:.2f} GPa", 1e-9}, "axial_strain_gauge",
+           [](auto &t) { return t.results.secant(&Sample::strain_gauge); });
+  list.add("youngs_modulus_platen_pa", "Pa", youngs, {"Young's modulus (platen)", "{:.2f} GPa", 1e-9},
+           [](auto &t) { return t.results.secant(platen_strain(t.results.axis())); });
+  list.add("poisson_ratio", "1", poissons | gauge | of_every_test, {"Poisson's ratio", "{:.3f}"},
+           "axial_strain_gauge lateral_strain",
+           [](auto &t) { return t.results.bulging(&Sample::lateral_strain, &Sample::strain_gauge); });
+  list.add("poisson_ratio_extremal", "1", poissons, {}, "lateral_strain_extremal axial_strain_extremal",
+           [](auto &t) { return t.results.bulging(&Sample::lateral_extremal, &Sample::axial_extremal); });
+  list.add("moduli_at_stress_pa", "Pa", history, [](auto &t) { return t.at_modulus.stress; });
+  list.add("youngs_modulus_voigt_pa", "Pa", [](auto &t) {
+    const double modulus = t.problem.facts().voigt_modulus; // 0 without bonds
+    return modulus > 0 ? modulus : not_measured;
+  });
+}
+
+// Of a pressure on the lateral surface, and of a wall that holds it.
+template <class List>
+void list_cell(List &list) {
+  list.where([](auto &t) { return t.problem.cell(); });
+  list.add("confining_pressure_pa", "Pa", history, [](auto &t) { return t.results.confining_pressure(); });
+  list.add("deviator_strength_pa", "Pa", peak | section, {"deviator at the peak", "{:.2f} MPa", 1e-6},
+           [](auto &t) { return t.results.deviator_strength(); });
+  list.add("largest_deviator_pa", "Pa", history, {"largest deviator", "{:.2f} MPa", 1e-6},
+           [](auto &t) { return t.results.largest_deviator().value; });
+  list.add("largest_deviator_time_s", "s", history,
+           [](auto &t) { return t.results.largest_deviator().time; });
+  list.add("bulk_modulus_pa", "Pa", consolidation | section | gauge, {"bulk modulus", "{:.2f} GPa", 1e-9},
+           "volumetric_strain", [](auto &t) { return t.results.bulk_modulus(); });
+  list.where([](auto &t) { return t.is_on_path(); });
+  list.add("pressure_path_deviation", "1", history, [](auto &t) { return t.path.deviation; });
+  list.add("pressure_path_ended_at_strain", "1", history, [](auto &t) { return t.path.ended_at_strain; });
+  list.where([](auto &t) { return t.problem.sleeve() != nullptr; });
+  list.add("sleeve_elements", "1", [](auto &t) { return t.problem.sleeve()->solid().mesh().cells.size(); });
+  list.add("sleeve_seats", "1", [](auto &t) { return t.problem.sleeve()->layer().seats(); });
+  list.add("sleeve_steps_of_interval", "1", [](auto &t) { return t.problem.sleeve()->steps_of_interval(); });
+  list.add("sleeve_mass_scaling", "1", [](auto &t) { return t.problem.sleeve()->mass_scaling(); });
+  list.add("sleeve_interval_cuts", "1", [](auto &t) { return t.problem.sleeve()->cuts(); });
+  list.add("sleeve_volumetric_strain", "1", [](auto &t) { return t.problem.sleeve_volumetric_strain(); });
+  list.add("sleeve_deviator_pa", "Pa", [](auto &t) { return t.problem.sleeve_deviator(); });
+  list.where([](auto &t) { return t.problem.skin() != nullptr; });
+  list.add("skin_spheres", "1", [](auto &t) { return t.problem.skin()->skin().size(); });
+  list.add("skin_coverage", "1", [](auto &t) {
+    return t.problem.skin()->skin().coverage(t.model.particles, t.problem.end_planes());
+  });
+  list.where([](auto &t) { return t.problem.sleeve() != nullptr || t.problem.skin() != nullptr; });
+  list.add("confinement_work_j", "J", [](auto &t) {
+    return t.problem.sleeve() != nullptr ? t.problem.sleeve()->solid().pressure_work()
+                                         : t.problem.skin()->skin().work();
+  });
+  list.where([](auto &t) { return t.problem.wall() != nullptr; });
+  list.add("wall_seats", "1", [](auto &t) { return t.problem.wall()->seats(); });
+  list.add("constrained_modulus_pa", "Pa", modulus | section | gauge,
+           {"constrained modulus", "{:.2f} GPa", 1e-9}, "axial_strain_gauge",
+           [](auto &t) { return t.results.secant(&Sample::strain_gauge); });
+  list.add("lateral_over_axial_stress", "1", modulus | section, {"lateral over axial stress", "{:.3f}"},
+           [](auto &t) { return t.results.lateral_over_axial(); });
+  list.where(everywhere);
+}
+
+// Of platens on the sides, and of stages.
+template <class List>
+void list_sides(List &list) {
+  for (const coupling::Side side : coupling::all_sides) {
+    list.where([=](auto &t) { return t.presses(side, 2); });
+    list.add("seated_sides/" + std::string(coupling::name_of(side)), "1",
+             [=](auto &t) { return t.problem.platen(side)->layer().seats(); });
+  }
+  list.where([](auto &t) { return t.presses_sides(); });
+  list.add_object("side_stress_at_peak_pa", peak | section);
+  for (const coupling::Side side : coupling::all_sides) {
+    list.where([=](auto &t) { return t.presses_sides() && t.presses(side, t.results.axis()); });
+    const std::string name = coupling::name_of(side);
+    list.add("side_stress_at_peak_pa/" + name, "Pa", 0, {"stress at the peak, " + name, "{:.2f} MPa", 1e-6},
+             [=](auto &t) { return t.results.at_peak(stress_of(side)); });
+  }
+  list.where([](auto &t) { return t.is_staged(); });
+  list.add("stages", "", [](auto &t) { return stages_of(t); });
+  list.where([](auto &t) { return !t.is_staged(); });
+  list.add("controls", "", [](auto &t) { return controls_of(t); });
+  list.where(everywhere);
+}
+
+// Of a disc and of a bent bar, whose stresses are 2 P / (pi D t) and 3 P L / (2 b d^2).
+template <class List>
+void list_disc_and_bar(List &list) {
+  list.where([](auto &t) { return t.is_disc() || t.problem.bent(); });
+  list.add("failure_load_n", "N", peak, {"load at failure", "{:.4g} kN", 1e-3},
+           [](auto &t) { return t.results.strength() * t.problem.nominal_area(); });
+  list.where([](auto &t) { return t.is_disc(); });
+  list.add("opening_at_peak_m", "m", peak, {"opening at peak", "{:.4g} um", 1e6}, "opening_m",
+           [](auto &t) { return t.results.at_peak(&Sample::opening); });
+  list.where([](auto &t) { return t.split.has_value(); });
+  list.add("cracks_on_loaded_diameter", "1", 0, {"cracks on the loaded diameter", "{:.2f}"},
+           [](auto &t) { return t.split->on_diameter; });
+  list.add("cracks_in_middle_of_diameter", "1", [](auto &t) { return t.split->in_middle; });
+  list.add("first_cracks_in_middle_of_diameter", "1", 0, {"first cracks in its middle half", "{:.2f}"},
+           [](auto &t) { return t.split->first_in_middle; });
+  list.where([](auto &t) { return t.problem.bent(); });
+  list.add("deflection_at_peak_m", "m", peak, {"deflection at peak", "{:.4g} um", 1e6}, "deflection_m",
+           [](auto &t) { return t.results.at_peak(&Sample::deflection); });
+  list.add("flexural_modulus_pa", "Pa", modulus | elastic | section, {"flexural modulus", "{:.2f} GPa", 1e-9},
+           "deflection_m", [](auto &t) { return t.flexural_modulus(); });
+  list.add("shear_over_bending_deflection", "1",
+           [](auto &t) { return t.problem.three_points().shear_share(t.assumed_poisson_ratio); });
+  list.add("moment_over_nominal", "1", peak | section, {"moment at mid-span over PL/4", "{:.3f}"},
+           "midspan_moment_n_m", [](auto &t) { return t.moment_over_nominal(); });
+  list.add("swings_to_peak", "1", history, {"swings of the bar to the peak", "{:.1f}"},
+           [](auto &t) { return t.swings_to_peak(); });
+  list.add("cracks_near_midspan", "1", 0, {"cracks within d/2 of mid-span", "{:.2f}"},
+           [](auto &t) { return t.cracks_near_midspan(); });
+  list.where(everywhere);
+}
+
+// Bonds, energy, and whether the test was slow enough.
+template <class List>
+void list_whole_test(List &list) {
+  list.add("broken_tension", "1", of_every_test, {"bonds broken in tension", "{:.0f}"},
+           [](auto &t) { return t.model.broken(dem::BondState::broken_in_tension); });
+  list.add("broken_shear", "1", of_every_test, {"bonds broken in shear", "{:.0f}"},
+           [](auto &t) { return t.model.broken(dem::BondState::broken_in_shear); });
+  list.add("energy_residual_relative", "1", history | of_every_test, {"energy residual over work", "{:.2e}"},
+           [](auto &t) { return t.results.energy_residual_relative(); });
+  list.where([](auto &t) { return t.problem.without_inertia(); });
+  list.add("platen_unbalanced_work_relative", "1", history, {}, "platen_unbalanced_work_j",
+           [](auto &t) { return t.results.platen_unbalanced_work_relative(); });
+  list.where(everywhere);
+  list.add("kinetic_to_internal_max", "1", history | of_every_test,
+           {"kinetic over internal, to the peak", "{:.2e}"}, [](auto &t) { return t.slowness.kinetic; });
+  list.add("wave_crossings_to_peak", "1", history, {"wave crossings", "{:.0f}"},
+           [](auto &t) { return t.slowness.wave_transits; });
+  list.add("unbalanced_force_median", "1", history, {"unbalanced over bond forces, median", "{:.2e}"},
+           "unbalanced_force_ratio", [](auto &t) { return t.slowness.unbalanced; });
+  list.add("inertial_number_max", "1", history, {}, "platen_speed_m_s",
+           [](auto &t) { return t.slowness.inertial; });
+  list.add("quasi_static", "", history, {}, "unbalanced_force_ratio platen_speed_m_s",
+           [](auto &t) { return t.is_slowness_known() ? Json(t.signs_of_haste().empty()) : Json(); });
+  list.add("signs_of_haste", "", history, {}, "unbalanced_force_ratio platen_speed_m_s",
+           [](auto &t) { return t.signs_of_haste(); });
+}
+
+// Of both states in which failure is measured: at 0.8 of the peak, after it, and at the end ("final_").
+template <class List>
+void list_damage(List &list) {
+  for (const bool last : {false, true}) {
+    const std::string at = last ? "final_" : "";
+    const unsigned fallen = last ? 0u : damage | of_every_test, spread = last ? 0u : fallen | compressed;
+    const auto line = [&](const char *label) { return last ? Line{} : Line{label, "{:.2f}"}; };
+    list.add(at + "end_damage_top", "1", fallen, line("damage of the top, after the peak"),
+             [=](auto &t) { return t.failure(last).damage.end_top; });
+    list.add(at + "end_damage_bottom", "1", fallen, line("damage of the bottom"),
+             [=](auto &t) { return t.failure(last).damage.end_bottom; });
+    list.add(at + "worse_end_damage", "1", fallen,
+             [=](auto &t) { return t.failure(last).damage.worse_end(); });
+    list.add(at + "middle_damage", "1", fallen, line("damage of the middle"),
+             [=](auto &t) { return t.failure(last).damage.middle; });
+    list.add(at + "end_spread", "1", spread, line("end spread"),
+             [=](auto &t) { return t.failure(last).end_spread; });
+  }
+  list.add("barrel_at_peak", "1", peak | along_z | of_every_test, {"barrel at peak", "{:.2f}"},
+           [](auto &t) { return t.results.barrel_at_peak(); });
+  list.add("fragments", "1", of_every_test, [](auto &t) { return t.fragments.count; });
+  list.add("loose_particles", "1", [](auto &t) { return t.fragments.single; });
+}
+
+// What has moved with a platen since the peak, and whether that is a cone.
+template <class List>
+void list_dead_zones(List &list, bool last) {
+  using Zone = dem::DeadZone;
+  const std::string at = last ? "final_" : "";
+  for (const dem::End end : {dem::top_end, dem::bottom_end}) {
+    const bool top = end == dem::top_end;
+    const std::string cone = at + (top ? "cone_top" : "cone_bottom");
+    const auto number = [&](const char *key, const char *unit, double Zone::*value, double of_unit = 1) {
+      list.add(cone + "/" + key, unit, [=](auto &t) { return t.dead_zone(last, end).*value / of_unit; });
+    };
+    const unsigned cone_of = top ? top_cone : bottom_cone;
+    list.where(everywhere);
+    list.add_object(cone, last ? 0u : damage | compressed | of_every_test | cone_of);
+    list.where([=](auto &t) { return t.has_pattern(last) && t.dead_zone(last, end).is_cone(); });
+    number("base_ratio", "1", &Zone::base_ratio);
+    number("height_m", "m", &Zone::height);
+    number("half_angle_deg", "degree", &Zone::half_angle, degree);
+    number("volume_fraction", "1", &Zone::volume_fraction);
+    number("apex_depth_m", "m", &Zone::apex_depth);
+    number("tilt_deg", "degree", &Zone::tilt, degree);
+    list.add(cone + "/apex_m", "", [=](auto &t) { return list_of(t.dead_zone(last, end).apex); });
+    list.add(cone + "/axis", "", [=](auto &t) { return list_of(t.dead_zone(last, end).axis); });
+    number("roundness", "1", &Zone::roundness);
+    number("straightness", "1", &Zone::straightness);
+    number("confidence", "1", &Zone::confidence);
+  }
+  for (const dem::End end : {dem::top_end, dem::bottom_end}) {
+    const std::string zone = at + (end == dem::top_end ? "dead_zone_top" : "dead_zone_bottom");
+    list.where(everywhere);
+    list.add_object(zone);
+    list.where([=](auto &t) {
+      return t.has_pattern(last) && t.dead_zone(last, end).verdict != dem::DeadZoneVerdict::not_measured;
+    });
+    list.add(zone + "/verdict", "", [=](auto &t) { return words_of(t.dead_zone(last, end).verdict); });
+    list.add(zone + "/base_ratio", "1", [=](auto &t) { return t.dead_zone(last, end).base_ratio; });
+    list.add(zone + "/volume_fraction", "1", [=](auto &t) { return t.dead_zone(last, end).volume_fraction; });
+  }
+}
+
+template <class List>
+void list_pattern(List &list, bool last) {
+  const std::string at = last ? "final_" : "", planes = at + "crack_planes", largest = planes + "/largest";
+  const auto of_all = [&](const std::string &key, const char *unit, auto value) {
+    list.add(planes + key, unit, [=](auto &t) { return value(t.failure(last).planes); });
+  };
+  list.where(everywhere);
+  list.add(at + "pattern", "", last ? 0u : damage | compressed, {last ? "" : "pattern"},
+           [=](auto &t) { return t.has_pattern(last) ? Json(t.word_of_pattern(last)) : Json(); });
+  list.add(at + "pattern_reasons", "", 0, {last ? "" : "because"},
+           [=](auto &t) { return t.has_pattern(last) ? Json(t.reasons_of_pattern(last)) : Json(); });
+  list.add_object(planes);
+  list.where([=](auto &t) { return t.has_failure(last); });
+  of_all("/count", "1", [](auto &p) { return static_cast<int>(p.count); });
+  of_all("/share", "1", [](auto &p) { return p.share; });
+  of_all("/steep_share", "1", [](auto &p) { return p.steep_share; });
+  of_all("/mean_inclination_deg", "degree", [](auto &p) { return p.mean_inclination / degree; });
+  list.add_object(largest);
+  list.where([=](auto &t) { return t.has_failure(last) && t.failure(last).planes.count > 0; });
+  of_all("/largest/share", "1", [](auto &p) { return p.largest.bonds / p.broken; });
+  of_all("/largest/inclination_deg", "degree", [](auto &p) { return p.largest.inclination / degree; });
+  of_all("/largest/flatness", "1", [](auto &p) { return p.largest.flatness; });
+  of_all("/largest/extent_m", "m", [](auto &p) { return p.largest.extent; });
+  list.where(everywhere);
+}
+
+// What cracks told while they came.
+template <class List>
+void list_emission(List &list) {
+  list.add("crack_rose", "", [](auto &t) {
+    return t.emission.pulses.empty() ? Json() : Json(t.emission.rose.over_isotropic());
+  });
+  list.add_object("acoustic");
+  list.where([](auto &t) { return t.has_emission(); });
+  list.add("acoustic/cracks", "1", [](auto &t) { return t.emission.pulses.size(); });
+  list.add("acoustic/events", "1", 0, {"acoustic events", "{:.0f}"},
+           [](auto &t) { return t.emission.events.size(); });
+  list.add("acoustic/largest_cracks", "1", [](auto &t) { return t.emission.largest_cracks(); });
+  list.add("acoustic/largest_magnitude", "1", 0, {"largest magnitude", "{:.1f}"},
+           [](auto &t) { return t.emission.largest_magnitude(); });
+  for (const bool after : {false, true}) {
+    const std::string b = after ? "acoustic/b_after" : "acoustic/b_before";
+    const auto add = [&](const char *key, const char *unit, const Line &line, auto value) {
+      list.add(b + key, unit, 0, line,
+               [=](auto &t) { return value(after ? t.emission.after : t.emission.before); });
+    };
+    add("", "1", {after ? "b-value after the peak" : "b-value before the peak", "{:.2f}"},
+        [](auto &v) { return v.b; });
+    add("_error", "1", {"its error", "{:.2f}"}, [](auto &v) { return v.error; });
+    add("_events", "1", {}, [](auto &v) { return static_cast<long>(v.events); });
+    add("_limit", "1", {}, [](auto &v) { return v.limit; });
+    add("_upper", "1", {}, [](auto &v) { return std::isfinite(v.upper) ? v.upper : not_measured; });
+    add("_above", "1", {}, [](auto &v) { return static_cast<long>(v.above); });
+    add("_reason", "", {}, [](auto &v) { return word_or_null(reason_against(v)); });
+  }
+  list.where(everywhere);
+}
+
+template <class List>
+void list_figures(List &list) {
+  list_run(list);
+  list_costs(list);
+  list_peak(list);
+  list_moduli(list);
+  list_cell(list);
+  list_sides(list);
+  list_disc_and_bar(list);
+  list_whole_test(list);
+  list_damage(list);
+  for (const bool last : {false, true}) {
+    list_dead_zones(list, last);
+    list_pattern(list, last);
+  }
+  list_emission(list);
+}
+
+// All rows, without their values.
+struct Rows : FigureList<Rows> {
+  std::vector<Figure> all;
+  template <class Holds>
+  void where(Holds) {}
+  template <class Value>
+  void take(Figure figure, Value) {
+    all.push_back(std::move(figure));
+  }
+};
+inline const std::vector<Figure> &figures() {
+  static const std::vector<Figure> rows = [] {
+    Rows list;
+    list_figures(list);
+    return std::move(list.all);
+  }();
+  return rows;
+}
+
+} // namespace platen::apps
