@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "apps/io/csv_writer.h"
-#include "apps/scene/usual_unit.h"
 #include "apps/study/tables.h"
 
 namespace platen::apps {

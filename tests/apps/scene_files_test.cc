@@ -242,7 +242,7 @@ TEST_F(SceneFiles, printed_json_can_be_read_as_a_scene) {
 TEST_F(SceneFiles, every_entry_tells_its_meaning) {
   const Scene scene = default_scene();
   std::ostringstream text;
-  write_prm(scene.parameters->entries(), true, text);
+  write_prm({scene.parameters->entries().begin(), scene.parameters->entries().end()}, true, text);
   std::set<std::string> paths;
   for (const Entry &entry : scene.parameters->entries()) {
     EXPECT_GT(entry.documentation.size(), 10u) << entry.path;
