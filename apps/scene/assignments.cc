@@ -5,6 +5,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
+#include <utility>
 
 #include "apps/scene/regular_file.h"
 #include "apps/scene/shipped.h"
@@ -54,75 +56,76 @@ std::string place_of(const std::string &file, const std::string &including) {
   return (!fs::exists(beside, none) && fs::is_regular_file(shipped, none) ? shipped : beside).string();
 }
 
+// One file; those that it includes have readers of their own.
 class PrmReader {
 public:
-  struct Broken {}; // what stands further down may be of another section
-
-  explicit PrmReader(FileText &to) : to_(to) {}
-  void read(const std::string &text, const std::string &name, int depth);
+  // `section` is open in the file that includes it, of which `included` are read so far.
+  PrmReader(FileText &to, int &included, std::string section, const Origin &file)
+      : to_(to), included_(included), outer_(std::move(section)), origin_(file) {}
+  void read(const std::string &text);
 
 private:
   struct Open {
     std::string name;
     Origin origin;
   };
+  struct Broken {}; // what stands further down may be of another section
 
+  void read_lines(const std::string &text);
   void statement(const std::string &line);
   void enter(const std::string &name);
+  void leave(const std::string &rest);
   void set(const std::string &assignment);
   void include(const std::string &file);
   std::string section() const;
-  void add(Kind kind, const std::string &key, const std::string &text, const Origin &origin) {
-    to_.assignments.push_back({kind, section(), key, text, origin, first_unseen(text) ? raw_ : ""});
+  void add(Kind kind, const std::string &key, const std::string &text) {
+    to_.assignments.push_back({kind, section(), key, text, origin_, first_unseen(text) ? raw_ : ""});
   }
-  void wrong(const std::string &what, const std::string &about = "") {
-    add(Kind::wrong, about, what, origin_);
-  }
-  void broken(const std::string &what) { add(Kind::broken, "", what, origin_); }
+  void wrong(const std::string &what, const std::string &about = "") { add(Kind::wrong, about, what); }
+  void broken(const std::string &what) { add(Kind::broken, "", what); }
 
   FileText &to_;
-  Origin origin_;                 // of the statement that is read
-  std::string raw_;               // the same as it stands there, for columns
-  std::vector<Open> open_;        // sections
-  std::size_t opened_before_ = 0; // those that an including file has open: not ours to close
-  int included_ = 0;              // files so far
+  int &included_;
+  std::string outer_;
+  Origin origin_;          // of the statement that is read
+  std::string raw_;        // the same as it stands there, for columns
+  std::vector<Open> open_; // sections
 };
 
 std::string PrmReader::section() const {
-  std::string path;
+  std::string path = outer_;
   for (const Open &one : open_)
     path += (path.empty() ? "" : "/") + one.name;
   return path;
 }
 
-void PrmReader::read(const std::string &text, const std::string &name, int depth) {
-  const std::size_t outer = opened_before_;
-  opened_before_ = open_.size();
-  origin_ = {name, 0, depth};
-  std::string joined; // of continued lines
+void PrmReader::read(const std::string &text) {
+  try {
+    read_lines(text);
+  } catch (const Broken &) {
+    return;
+  }
+  if (open_.empty()) return;
+  origin_ = open_.back().origin;
+  broken("subsection " + open_.back().name +
+         " is opened here and not closed by an \"end\" before the file is over.");
+}
+
+void PrmReader::read_lines(const std::string &text) {
+  std::istringstream lines(text);
+  std::string whole, joined; // the latter of continued lines
   bool continues = false;
-  int line_number = 0;
-  for (std::size_t first = 0; first <= text.size();) {
-    const std::size_t end = std::min(text.find('\n', first), text.size());
-    const std::string whole = text.substr(first, end - first);
+  for (int number = 1; std::getline(lines, whole); ++number) {
     std::string line = trimmed(whole);
-    first = end + 1;
-    ++line_number;
-    if (!continues) origin_.line = line_number, raw_.clear();
+    if (!continues) origin_.line = number, raw_.clear();
     raw_ += (raw_.empty() ? "" : "\n") + whole;
     continues = !line.empty() && line.back() == '\\';
     if (continues) line.pop_back(); // a blank before it stays: it parts the words that are joined
     joined += line;
-    if (continues && first <= text.size()) continue;
+    if (continues && lines.peek() != std::char_traits<char>::eof()) continue;
     statement(trimmed(joined.substr(0, joined.find('#'))));
     joined.clear();
   }
-  if (open_.size() > opened_before_) {
-    origin_ = open_.back().origin;
-    broken("subsection " + open_.back().name +
-           " is opened here and not closed by an \"end\" before the file is over.");
-  }
-  opened_before_ = outer;
 }
 
 void PrmReader::statement(const std::string &line) {
@@ -133,13 +136,7 @@ void PrmReader::statement(const std::string &line) {
   if (word == "set" || word == "SET") return set(rest);
   if (word == "subsection" || word == "SUBSECTION") return enter(tidy(rest));
   if (word == "include" || word == "INCLUDE") return include(rest);
-  if (word == "end" || word == "END") {
-    if (!rest.empty())
-      wrong("\"end\" is followed by \"" + rest.substr(0, longest_quote) + "\". Allowed: nothing.");
-    if (open_.size() > opened_before_) return open_.pop_back();
-    broken("\"end\" without a subsection to close.");
-    throw Broken();
-  }
+  if (word == "end" || word == "END") return leave(rest);
   const std::string unseen = unseen_in(word, raw_),
                     nearest = nearest_word(word, {"set", "subsection", "end", "include"});
   const std::string what =
@@ -151,6 +148,14 @@ void PrmReader::statement(const std::string &line) {
   throw Broken();
 }
 
+void PrmReader::leave(const std::string &rest) {
+  if (!rest.empty())
+    wrong("\"end\" is followed by \"" + rest.substr(0, longest_quote) + "\". Allowed: nothing.");
+  if (!open_.empty()) return open_.pop_back();
+  broken("\"end\" without a subsection to close.");
+  throw Broken();
+}
+
 void PrmReader::enter(const std::string &name) {
   const std::string unseen = unseen_in(name, raw_);
   if (name.empty() || !unseen.empty()) {
@@ -159,7 +164,7 @@ void PrmReader::enter(const std::string &name) {
     throw Broken();
   }
   open_.push_back({name, origin_});
-  add(Kind::section, "", "", origin_);
+  add(Kind::section, "", "");
 }
 
 void PrmReader::set(const std::string &assignment) {
@@ -169,11 +174,11 @@ void PrmReader::set(const std::string &assignment) {
   if (equals == std::string::npos) return wrong(quoted + "has no \"=\". Allowed: set Key = value.", key);
   if (const std::string unseen = unseen_in(before, raw_); !unseen.empty()) return wrong(quoted + unseen);
   if (key.empty()) return wrong(quoted + "names no key. Allowed: set Key = value.");
-  if (const std::size_t slash = key.rfind('/'); open_.empty() && slash != std::string::npos)
+  if (const std::size_t slash = key.rfind('/'); section().empty() && slash != std::string::npos)
     return wrong("\"set " + key + "\" holds a path. Allowed: subsection " + key.substr(0, slash) + ", set " +
                      key.substr(slash + 1) + " = ..., end.",
                  key);
-  add(Kind::value, key, assignment.substr(equals + 1), origin_);
+  add(Kind::value, key, assignment.substr(equals + 1));
 }
 
 void PrmReader::include(const std::string &file) {
@@ -196,13 +201,7 @@ void PrmReader::include(const std::string &file) {
                   (unseen.empty() ? "" : " The name " + unseen));
   }
   to_.sources.push_back(included);
-  const std::size_t open = open_.size(), opened_before = opened_before_;
-  const Origin here = origin_;
-  try {
-    read(plain(text), included, here.depth + 1);
-  } catch (const Broken &) {
-  }
-  open_.resize(open), opened_before_ = opened_before, origin_ = here;
+  PrmReader(to_, included_, section(), {included, 0, origin_.depth + 1}).read(plain(text));
 }
 
 FileText broken_file(const std::string &path, const std::string &message) {
@@ -213,10 +212,8 @@ FileText broken_file(const std::string &path, const std::string &message) {
 
 FileText prm_assignments(const std::string &text, const std::string &name) {
   FileText all{{}, {name}};
-  try {
-    PrmReader(all).read(text, name, 0);
-  } catch (const PrmReader::Broken &) {
-  }
+  int included = 0;
+  PrmReader(all, included, "", {name, 0, 0}).read(text);
   return all;
 }
 
