@@ -69,13 +69,11 @@ private:
     std::string name;
     Origin origin;
   };
-  struct Broken {}; // what stands further down may be of another section
+  struct Broken {};
 
   void read_lines(const std::string &text);
   void statement(const std::string &line);
-  void enter(const std::string &name);
-  void leave(const std::string &rest);
-  void set(const std::string &assignment);
+  void set(const std::string &assignment, const std::string &quoted);
   void include(const std::string &file);
   std::string section() const;
   void add(Kind kind, const std::string &key, const std::string &text) {
@@ -83,6 +81,11 @@ private:
   }
   void wrong(const std::string &what, const std::string &about = "") { add(Kind::wrong, about, what); }
   void broken(const std::string &what) { add(Kind::broken, "", what); }
+  // What follows may stand in another section, or be no scene at all.
+  [[noreturn]] void stop(const std::string &what) {
+    broken(what);
+    throw Broken();
+  }
 
   FileText &to_;
   int &included_;
@@ -133,46 +136,34 @@ void PrmReader::statement(const std::string &line) {
   const std::size_t blank = std::min(line.find(' '), line.size());
   const std::string word = line.substr(0, blank), rest = trimmed(line.substr(blank)),
                     quoted = "\"" + line.substr(0, longest_quote) + "\" ";
-  if (word == "set" || word == "SET") return set(rest);
-  if (word == "subsection" || word == "SUBSECTION") return enter(tidy(rest));
+  const bool sets = word == "set" || word == "SET";
   if (word == "include" || word == "INCLUDE") return include(rest);
-  if (word == "end" || word == "END") return leave(rest);
-  const std::string unseen = unseen_in(word, raw_),
-                    nearest = nearest_word(word, {"set", "subsection", "end", "include"});
-  const std::string what =
-      quoted + (!unseen.empty()   ? unseen
-                : nearest.empty() ? "is no statement. Allowed: set, subsection, end, include."
-                                  : "is no statement. Did you mean \"" + nearest + "\"?");
-  if (unseen.empty() && nearest == "set") return wrong(what, tidy(rest));
-  broken(what); // what follows may stand in another section, or be no scene at all
-  throw Broken();
-}
-
-void PrmReader::leave(const std::string &rest) {
-  if (!rest.empty())
-    wrong("\"end\" is followed by \"" + rest.substr(0, longest_quote) + "\". Allowed: nothing.");
-  if (!open_.empty()) return open_.pop_back();
-  broken("\"end\" without a subsection to close.");
-  throw Broken();
-}
-
-void PrmReader::enter(const std::string &name) {
-  const std::string unseen = unseen_in(name, raw_);
-  if (name.empty() || !unseen.empty()) {
-    broken(name.empty() ? "\"subsection\" needs the name of a section."
-                        : "\"subsection " + name + "\" " + unseen);
-    throw Broken();
+  if (const std::string unseen = unseen_in(line.substr(0, line.find('=')), raw_); !unseen.empty())
+    return sets ? wrong(quoted + unseen) : stop(quoted + unseen);
+  if (sets) return set(rest, quoted);
+  if (word == "subsection" || word == "SUBSECTION") {
+    if (rest.empty()) stop("\"subsection\" needs the name of a section.");
+    open_.push_back({tidy(rest), origin_});
+    return add(Kind::section, "", "");
   }
-  open_.push_back({name, origin_});
-  add(Kind::section, "", "");
+  if (word == "end" || word == "END") {
+    if (!rest.empty())
+      wrong("\"end\" is followed by \"" + rest.substr(0, longest_quote) + "\". Allowed: nothing.");
+    if (open_.empty()) stop("\"end\" without a subsection to close.");
+    return open_.pop_back();
+  }
+  const std::string nearest = nearest_word(word, {"set", "subsection", "end", "include"}),
+                    what = quoted + "is no statement." +
+                           (nearest.empty() ? " Allowed: set, subsection, end, include."
+                                            : " Did you mean \"" + nearest + "\"?");
+  if (nearest != "set") stop(what);
+  wrong(what, tidy(rest));
 }
 
-void PrmReader::set(const std::string &assignment) {
+void PrmReader::set(const std::string &assignment, const std::string &quoted) {
   const std::size_t equals = assignment.find('=');
-  const std::string before = assignment.substr(0, equals), key = tidy(before),
-                    quoted = "\"set " + assignment.substr(0, longest_quote) + "\" ";
+  const std::string key = tidy(assignment.substr(0, equals));
   if (equals == std::string::npos) return wrong(quoted + "has no \"=\". Allowed: set Key = value.", key);
-  if (const std::string unseen = unseen_in(before, raw_); !unseen.empty()) return wrong(quoted + unseen);
   if (key.empty()) return wrong(quoted + "names no key. Allowed: set Key = value.");
   if (const std::size_t slash = key.rfind('/'); section().empty() && slash != std::string::npos)
     return wrong("\"set " + key + "\" holds a path. Allowed: subsection " + key.substr(0, slash) + ", set " +
