@@ -81,8 +81,11 @@ private:
               "needs `loading.start_strain` = 0: the static solve is between rigid ends. Allowed: rigid.");
     refuse_if(p_.elastic->pad_thickness > 0 && !p_.elastic->layers.empty(), "platens.elastic.layers",
               "is another way to say `platens.elastic.pad_thickness`. Allowed: one of them.");
+    const bool has_plate = std::any_of(all_sides.begin(), all_sides.end(), [&](Side side) {
+      return p_.side(side) != nullptr && p_.side(side)->grid == nullptr;
+    });
     refuse_if(
-        p_.elastic->pad_thickness > 0 && p_.thickness > 0 && p_.elastic->pad_thickness >= p_.thickness,
+        has_plate && p_.thickness > 0 && p_.elastic->pad_thickness >= p_.thickness,
         "platens.elastic.pad_thickness",
         "leaves nothing of the platen. Allowed: 0 ... " + text_of(p_.thickness) + " m, `platens.thickness`.");
   }

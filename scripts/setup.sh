@@ -21,7 +21,7 @@ packages=(
   libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev # specimens over MPI ranks
   libvtk9-dev                          # VTU files, pictures
   libeigen3-dev voro++-dev             # particle library
-  libcli11-dev nlohmann-json3-dev libfmt-dev libudunits2-dev libxxhash-dev libssl-dev # apps
+  libcli11-dev nlohmann-json3-dev libfmt-dev libxxhash-dev libssl-dev # apps
   libnlopt-dev libnlopt-cxx-dev # the search of platen-calibrate
   pybind11-dev python3-dev python3-numpy # the Python package
   libgtest-dev                         # tests; holds GTest's CMake configuration too

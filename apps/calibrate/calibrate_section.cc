@@ -8,88 +8,67 @@
 namespace platen::apps {
 namespace {
 
-void declare_test_of_target(Section &section, TargetSection &to, const std::string &kind, bool first) {
-  section
+void declare_test_of_target(Section &section, TargetSection &to, const std::string &kind) {
+  Section in_cell = section.only_if(kind, {"strength at pressure"});
+  in_cell
       .entry("Pressure", to.pressure, "Pa", above(0),
              "Of the cell; the strength is the largest axial stress, the pressure included.")
-      .only_if(kind, {"strength at pressure"})
-      .needed_if(kind, {"strength at pressure"})
-      .alike(first);
-  section
-      .entry<ConfinementKind>(
-          "Cell", to.cell, {{"particles", ConfinementKind::particles}, {"sleeve", ConfinementKind::sleeve}},
-          "How the pressure acts: as Loading/Confinement; particles are cheaper.")
-      .only_if(kind, {"strength at pressure"})
-      .alike(first);
-  section
+      .needed_if(kind, {"strength at pressure"});
+  in_cell.entry<ConfinementKind>(
+      "Cell", to.cell, {{"particles", ConfinementKind::particles}, {"sleeve", ConfinementKind::sleeve}},
+      "How the pressure acts: as Loading/Confinement; particles are cheaper.");
+  Section broken = section.unless(kind, {"young modulus", "poisson ratio"}),
+          pressed = broken.unless(kind, {"tension"}), upright = pressed.unless(kind, {"splitting"});
+  upright
       .entry<TargetForm>(
           "Form", to.form,
           {{"scene", TargetForm::scene}, {"cylinder", TargetForm::cylinder}, {"box", TargetForm::box}},
           "Of the specimen; a box is as wide as the scene's cylinder, a cylinder as its box. Cube over prism "
           "has boxes.")
-      .unless(kind, {"young modulus", "poisson ratio", "tension", "splitting", "cube over prism"})
-      .alike(first);
-  section
-      .number("Slenderness", to.slenderness, between(0.1, 20),
-              "Height over width of the specimen; where not given, the scene's. Cube over prism: of the "
-              "prism, 2.4 where not given. Kind = slenderness: of the short specimen, 1 where not given.")
-      .unless(kind, {"young modulus", "poisson ratio", "tension", "splitting"})
-      .alike(first);
+      .unless(kind, {"cube over prism"});
+  upright.number("Slenderness", to.slenderness, between(0.1, 20),
+                 "Height over width of the specimen; where not given, the scene's. Cube over prism: of the "
+                 "prism, 2.4 where not given. Kind = slenderness: of the short specimen, 1 where not given.");
   const char *faces = "dry steel, thesis, teflon, grease, or a coefficient of friction (0 ... 5)";
-  section
-      .value("Platens", to.platens, "", faces, read_platens_of_target,
-             "What the specimen stands between; where not given, the scene's platens.")
-      .unless(kind, {"young modulus", "poisson ratio", "tension"})
-      .alike(first);
+  pressed.value("Platens", to.platens, "", faces, read_platens_of_target,
+                "What the specimen stands between; where not given, the scene's platens.");
   section
       .value("Other platens", to.other_platens, "", faces, read_platens_of_target,
              "That the gain is over; where not given, without friction.")
-      .only_if(kind, {"gain by friction"})
-      .alike(first);
-  section
-      .entry("Rate", to.rate, "m/s", above(0),
-             "Speed of its tests; where not given, Loading/Axial rate for the scene's height, in proportion "
-             "for other ones; in tension Calibrate/Tension rate, in splitting a quarter.")
-      .unless(kind, {"young modulus", "poisson ratio"})
-      .alike(first);
-  section
-      .number("Largest strain", to.strain, above_up_to(0, 1),
-              "Where its tests end without a peak; where not given, Loading/Target strain, more for "
-              "specimens of a slenderness below 2, a quarter in tension, half in splitting.")
-      .unless(kind, {"young modulus", "poisson ratio"})
-      .alike(first);
+      .only_if(kind, {"gain by friction"});
+  broken.entry(
+      "Rate", to.rate, "m/s", above(0),
+      "Speed of its tests; where not given, Loading/Axial rate for the scene's height, in proportion "
+      "for other ones; in tension Calibrate/Tension rate, in splitting a quarter.");
+  broken.number("Largest strain", to.strain, above_up_to(0, 1),
+                "Where its tests end without a peak; where not given, Loading/Target strain, more for "
+                "specimens of a slenderness below 2, a quarter in tension, half in splitting.");
 }
 
 void declare_target(Parameters &parameters, TargetSection &to, std::size_t number) {
-  const bool first = number == 1;
   Section section(parameters, section_of_target(number));
   const std::string kind = section.name() + "/Kind";
-  section
-      .entry(
-          "Kind", to.kind, target_kinds,
-          "What is wanted. Young modulus and Poisson's ratio of the specimen's middle; tension between "
-          "glued ends; splitting of a disc as thick as its radius; gain by friction: strength over that "
-          "between the other platens; slenderness: strength over that of a specimen twice as high as wide, "
-          "between the same platens; secant ratio: Poisson's ratio to 40 % of the strength; curve: "
-          "stresses of a test of the user's own.")
-      .alike(first);
-  section.text("Value", to.value, "The number wanted, with its unit.").alike(first);
+  section.entry(
+      "Kind", to.kind, target_kinds,
+      "What is wanted. Young modulus and Poisson's ratio of the specimen's middle; tension between "
+      "glued ends; splitting of a disc as thick as its radius; gain by friction: strength over that "
+      "between the other platens; slenderness: strength over that of a specimen twice as high as wide, "
+      "between the same platens; secant ratio: Poisson's ratio to 40 % of the strength; curve: "
+      "stresses of a test of the user's own.");
+  section.text("Value", to.value, "The number wanted, with its unit.");
   parameters.declared(section.name() + "/Value").is_text = false; // read as a number when its kind is known
   section
       .file(
           "File", to.file,
           "Of a curve: CSV with a header, strain_platen or strain_gauge and stress_pa or stress_mpa, a row a "
           "point, from small strains to large, compression positive.")
-      .only_if(kind, {"curve"})
-      .alike(first);
-  section.number("Weight", to.weight, above(0), "Of the square of its miss over its tolerance, among others.")
-      .alike(first);
-  section
-      .number("Tolerance", to.tolerance, above_up_to(0, 0.5),
-              "Relative difference that is near enough; of a curve the root mean square over its largest "
-              "stress. Where not given, Calibrate/Tolerance.")
-      .alike(first);
-  declare_test_of_target(section, to, kind, first);
+      .only_if(kind, {"curve"});
+  section.number("Weight", to.weight, above(0),
+                 "Of the square of its miss over its tolerance, among others.");
+  section.number("Tolerance", to.tolerance, above_up_to(0, 0.5),
+                 "Relative difference that is near enough; of a curve the root mean square over its largest "
+                 "stress. Where not given, Calibrate/Tolerance.");
+  declare_test_of_target(section, to, kind);
 }
 
 void declare_calibrate(Parameters &parameters, Scene &scene) {
@@ -171,8 +150,10 @@ void declare_calibrate(Parameters &parameters, Scene &scene) {
                  "Search, where Calibrate/Free has contact friction.");
   section.number("Largest contact friction", c.contact_friction_high, between(0, 5),
                  "Search, where Calibrate/Free has contact friction.");
-  for (std::size_t k = 0; k < most_targets; ++k)
-    declare_target(parameters, c.target_sections[k], k + 1);
+  parameters.declare_series(section_of_target(1), most_targets,
+                            [&sections = c.target_sections](Parameters &to, std::size_t number) {
+                              declare_target(to, sections[number - 1], number);
+                            });
 }
 
 void complete(Parameters &parameters, Scene &scene) {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "apps/scene/declared.h"
+#include "apps/scene/declare.h"
 #include "apps/scene/scene.h"
 
 namespace platen::apps {

@@ -33,7 +33,7 @@ double value_of(const Parameters &parameters, const std::string &section, const 
                     allowed = " Allowed: " + allowed_text(range_of(from.kind), unit) + ".";
   if (from.value.empty()) parameters.refuse(entry, "is not set: Kind = " + kind + " wants one." + allowed);
   try {
-    return read_quantity(from.value, unit, physical(kind, unit, range_of(from.kind)));
+    return Quantity(kind, unit, range_of(from.kind)).read(from.value);
   } catch (const ValueError &error) {
     parameters.refuse(entry, std::string(error.what()) + ". Wanted for Kind = " + kind + "." + allowed);
   }

@@ -12,7 +12,7 @@
 #include "apps/report/platen_study.h"
 #include "apps/report/run_folder.h"
 #include "apps/scene/errors.h"
-#include "apps/scene/usual_unit.h"
+#include "apps/scene/units.h"
 
 namespace platen::apps::report {
 namespace {

@@ -31,16 +31,14 @@ NamedLayer read_layer(const std::string &text) {
     number = std::min(text.find(' ', number), text.size() - 1) + 1;
   NamedLayer layer{tidy(text.substr(0, number)), not_given};
   if (layer.material.empty()) throw ValueError("names no material");
-  if (number < text.size())
-    layer.thickness = read_quantity(text.substr(number), "m", physical("", "m", above(0)));
+  if (number < text.size()) layer.thickness = read_quantity(text.substr(number), "m", above(0));
   return layer;
 }
 
 double read_constant(const std::string &what, const std::string &text, const char *unit, const Range &range) {
-  const Allowed allowed = physical(what, unit, range);
   try {
     if (text.empty()) throw ValueError("is empty");
-    return read_quantity(text, unit, allowed);
+    return Quantity(what, unit, range).read(text);
   } catch (const ValueError &error) {
     throw ValueError("has a " + what + ", \"" + text + "\", that " + error.what());
   }

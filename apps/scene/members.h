@@ -30,29 +30,28 @@ void declare_member(Section &section, Described &of, const std::string &member, 
 template <class Described>
 class Members {
 public:
-  Members(Section &section, Described &of) : section_(section), of_(of) {}
+  Members(const Section &section, Described &of) : section_(section), of_(of) {}
   // The member of this name; its key is as said, or follows from the name. Throws std::out_of_range where no
   // member has it.
   Declared operator()(const std::string &member, const std::string &key = "") {
     const std::string under = key.empty() ? key_of(member) : key;
     declare_member(section_, of_, member, under);
-    declared_.push_back(member);
     return section_.at(under);
   }
-  // All members that have not been declared here, but for those that another section has, under the keys that
+  // All members that the section does not have, but for those that another one has, under the keys that
   // follow from their names.
   void rest(const std::vector<std::string> &elsewhere = {}) {
-    declared_.insert(declared_.end(), elsewhere.begin(), elsewhere.end());
     std::vector<std::string> all;
     Described::describe([&](const char *name, const auto &...) { all.emplace_back(name); }, of_);
     for (const std::string &member : all)
-      if (std::find(declared_.begin(), declared_.end(), member) == declared_.end()) (*this)(member);
+      if (std::find(elsewhere.begin(), elsewhere.end(), member) == elsewhere.end() &&
+          !section_.sets(std::string(Described::name) + "." + member))
+        (*this)(member);
   }
 
 private:
-  Section &section_;
+  Section section_;
   Described &of_;
-  std::vector<std::string> declared_;
 };
 
 // What a number, or each of a list, may be. Throws std::logic_error where no member has that name.
@@ -91,13 +90,13 @@ Words<Enum> words_of(const std::string &member) {
 // effect with these alone.
 class LawMembers {
 public:
-  LawMembers(Section &section, dem::BondLaws::AllParameters &laws) : section_(section), laws_(laws) {}
+  LawMembers(const Section &section, dem::BondLaws::AllParameters &laws) : section_(section), laws_(laws) {}
   Declared operator()(const std::string &member);
   // All that have not been declared, but for flags: these are effects.
   void rest();
 
 private:
-  Section &section_;
+  Section section_;
   dem::BondLaws::AllParameters &laws_;
 };
 

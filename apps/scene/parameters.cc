@@ -1,96 +1,13 @@
 #include "apps/scene/parameters.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 
 #include "apps/scene/units.h"
 #include "base/characters.h"
 
 namespace platen::apps {
-namespace {
-
-char lower(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-std::string section_of(const std::string &path) {
-  const auto slash = path.rfind('/');
-  return slash == std::string::npos ? "" : path.substr(0, slash);
-}
-
-std::string last_name(const std::string &path) {
-  return path.substr(path.rfind('/') + 1);
-}
-
-// The distance is at least that of the lengths, which costs nothing.
-int length_difference(const std::string &a, const std::string &b) {
-  return std::abs(static_cast<int>(a.size()) - static_cast<int>(b.size()));
-}
-
-bool a_slip_apart(const std::string &a, const std::string &b) {
-  return length_difference(a, b) <= 1 && edit_distance(a, b) <= 1;
-}
-
-// Keys of more words, of which this is one: "Friction static" for "Friction"; few, or it says nothing.
-std::vector<std::string> keys_with(const std::string &key, const std::vector<std::string> &keys) {
-  constexpr std::size_t most = 4;
-  const auto small = [](const std::string &text) {
-    std::string result = " ";
-    for (const char c : text)
-      result += lower(c);
-    return result + " ";
-  };
-  std::vector<std::string> found;
-  for (const std::string &one : keys)
-    if (small(one).find(small(key)) != std::string::npos) found.push_back(one);
-  return found.size() > most ? std::vector<std::string>{} : found;
-}
-
-std::string shown(const std::string &text) {
-  constexpr std::size_t longest = 80; // a message stays readable whatever the value
-  std::string cut = text.size() > longest ? text.substr(0, longest) + "..." : text;
-  for (char &c : cut)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  return cut;
-}
-
-// ": it holds U+0421 (Cyrillic letter) in column 1" of what looks like a known name and is none.
-std::string look_alike_in(const std::string &text) {
-  const std::optional<Character> odd = first_look_alike(text);
-  return odd ? ": it holds " + text_of_odd_character(text) : "";
-}
-
-} // namespace
-
-std::string unseen_in(const std::string &part, const std::string &whole) {
-  const std::optional<Character> odd = first_unseen(part);
-  if (!odd) return "";
-  const std::string sign = part.substr(odd->at, odd->bytes);
-  const std::size_t there = whole.find(part),
-                    at = there == std::string::npos ? whole.find(sign) : there + odd->at;
-  std::string column;
-  if (at != std::string::npos) {
-    const std::size_t line = whole.rfind('\n', at) + 1; // of a continued one the last
-    const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; };
-    const auto first = whole.begin() + static_cast<std::ptrdiff_t>(line),
-               end = whole.begin() + static_cast<std::ptrdiff_t>(at);
-    column = " in column " + std::to_string(1 + (end - first) - std::count_if(first, end, continues));
-  }
-  return "holds " + odd->name + column + ", which cannot be seen. Allowed: blanks and tabs.";
-}
-
-// What a .prm cannot hold cannot be written back, wherever it came from.
-void check_characters(const std::string &text) {
-  for (const char c : text) {
-    if (c == '#') throw ValueError("holds a \"#\", which begins a comment in a scene file");
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-      throw ValueError("holds a control character or a line end");
-  }
-  if (!text.empty() && text.back() == '\\') throw ValueError("ends with a backslash, which continues a line");
-}
 
 std::string limits(const Entry &entry) {
   std::string text = entry.allowed;
@@ -99,66 +16,21 @@ std::string limits(const Entry &entry) {
   return text;
 }
 
-int edit_distance(const std::string &a, const std::string &b) {
-  const std::size_t n = a.size(), m = b.size();
-  std::vector<std::vector<int>> d(n + 1, std::vector<int>(m + 1));
-  for (std::size_t i = 0; i <= n; ++i)
-    for (std::size_t j = 0; j <= m; ++j) {
-      if (i == 0 || j == 0) {
-        d[i][j] = static_cast<int>(i + j);
-        continue;
-      }
-      const int changed = lower(a[i - 1]) == lower(b[j - 1]) ? 0 : 1;
-      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + changed});
-      if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]))
-        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
-    }
-  return d[n][m];
-}
-
-std::string nearest_word(const std::string &word, const std::vector<std::string> &candidates) {
-  constexpr std::size_t longest = 200; // more is no slip of the pen, and the distance costs its square
-  if (word.size() > longest) return "";
-  std::string nearest;
-  int least = (static_cast<int>(word.size()) + 2) / 3 + 1;
-  for (const std::string &candidate : candidates) {
-    if (length_difference(word, candidate) >= least) continue;
-    const int distance = edit_distance(word, candidate);
-    if (distance < least && distance < static_cast<int>(candidate.size()))
-      least = distance, nearest = candidate;
-  }
-  return nearest;
-}
-
-std::string trimmed(const std::string &text) {
-  std::string result = text;
-  for (char &c : result)
-    if (c == '\t' || c == '\r') c = ' ';
-  const auto first = result.find_first_not_of(' ');
-  return first == std::string::npos ? "" : result.substr(first, result.find_last_not_of(' ') - first + 1);
-}
-
-std::string tidy(const std::string &text) {
-  std::string result;
-  for (const char c : trimmed(text))
-    if (c != ' ' || result.back() != ' ') result += c;
-  return result;
-}
-
-void Parameters::declare(Entry entry) {
+Entry &Parameters::declare(Entry entry) {
   if (find(entry.path) != nullptr) throw std::logic_error("declared twice: " + entry.path);
-  const std::string section = section_of(entry.path);
-  for (std::size_t slash = section.find('/');; slash = section.find('/', slash + 1)) {
-    const std::string outer = section.substr(0, slash);
-    if (!outer.empty() && !is_section(outer)) sections_.push_back(outer);
-    if (slash == std::string::npos) break;
-  }
+  for (auto slash = entry.path.find('/'); slash != std::string::npos; slash = entry.path.find('/', slash + 1))
+    if (const std::string section = entry.path.substr(0, slash); !is_section(section)) {
+      sections_.push_back(section);
+      places_[section] = section_mark;
+    }
   entry.text = entry.default_text;
   entry.read(entry.text);
+  places_[entry.path] = entries_.size();
   entries_.push_back(std::move(entry));
+  return entries_.back();
 }
 
-void Parameters::join(Entry further) {
+Entry &Parameters::join(Entry further) {
   Entry &entry = declared(further.path);
   if (entry.default_text != further.default_text || limits(entry) != limits(further))
     throw std::logic_error("declared in two ways: " + entry.path);
@@ -166,21 +38,55 @@ void Parameters::join(Entry further) {
     first(text);
     second(text);
   };
+  return entry;
 }
 
-Entry &Parameters::declared(const std::string &path) {
-  return entries_.at(position(path));
+void Parameters::declare_series(const std::string &first, std::size_t most,
+                                std::function<void(Parameters &, std::size_t)> declare) {
+  series_.push_back({first.substr(0, first.size() - 1), most, 0, std::move(declare)});
+  declare_further(series_.back());
 }
 
-std::size_t Parameters::position(const std::string &path) const {
-  const auto found =
-      std::find_if(entries_.begin(), entries_.end(), [&](const Entry &entry) { return entry.path == path; });
-  return static_cast<std::size_t>(found - entries_.begin());
+void Parameters::declare_further(Series &series) {
+  const std::size_t before = entries_.size();
+  series.declare(*this, ++series.declared);
+  for (std::size_t k = before; k < entries_.size(); ++k)
+    entries_[k].number = series.declared;
+}
+
+std::size_t Parameters::number_in(const Series &series, const std::string &path) {
+  if (path.rfind(series.prefix, 0) != 0) return 0;
+  const std::string digits =
+      path.substr(series.prefix.size(), path.find('/', series.prefix.size()) - series.prefix.size());
+  if (digits.empty() || digits.size() > 4 || digits[0] == '0') return 0;
+  if (digits.find_first_not_of("0123456789") != std::string::npos) return 0;
+  const std::size_t number = std::stoul(digits);
+  return number <= series.most ? number : 0;
+}
+
+void Parameters::declare_written(const std::string &path) {
+  for (Series &one : series_)
+    for (const std::size_t number = number_in(one, path); one.declared < number;)
+      declare_further(one);
+}
+
+std::vector<Entry> Parameters::unwritten(const std::string &path) const {
+  std::vector<Entry> entries;
+  for (const Series &one : series_)
+    if (const std::size_t number = number_in(one, path); number > one.declared)
+      for (const Entry &first : entries_) {
+        if (number_in(one, first.path) != 1) continue;
+        Entry entry = first;
+        entry.path = one.prefix + std::to_string(number) + first.path.substr(one.prefix.size() + 1);
+        entry.text = entry.default_text;
+        if (entry.path == path || entry.path.rfind(path + "/", 0) == 0) entries.push_back(entry);
+      }
+  return entries;
 }
 
 const Entry *Parameters::find(const std::string &path) const {
-  const std::size_t k = position(path);
-  return k == entries_.size() ? nullptr : &entries_[k];
+  const auto found = places_.find(path);
+  return found == places_.end() || found->second == section_mark ? nullptr : &entries_[found->second];
 }
 
 const Entry &Parameters::at(const std::string &path) const {
@@ -189,110 +95,105 @@ const Entry &Parameters::at(const std::string &path) const {
   return *entry;
 }
 
+Entry &Parameters::declared(const std::string &path) {
+  return const_cast<Entry &>(at(path));
+}
+
 bool Parameters::is_section(const std::string &path) const {
-  return std::find(sections_.begin(), sections_.end(), path) != sections_.end();
+  const auto found = places_.find(path);
+  return found != places_.end() && found->second == section_mark;
 }
 
 bool Parameters::is_foreign(const std::string &path) const {
   return std::find(foreign_.begin(), foreign_.end(), path.substr(0, path.find('/'))) != foreign_.end();
 }
 
-void Parameters::enter(const std::string &path, const Origin &origin) const {
-  if (is_section(path) || is_foreign(path)) return;
-  std::string message =
-      origin.text() + ": error: " + shown(path) + " is not a section" + look_alike_in(path) + ".";
-  if (path.find('/') != std::string::npos && is_section(last_name(path)))
-    throw EntryError(message + " Is the \"end\" of section " + section_of(path) + " missing before it?",
-                     origin, path);
-  if (const std::string last = last_of_its_kind(path); !last.empty())
-    throw EntryError(message + " The last one is " + last + ".", origin, path);
-  const std::string nearest = nearest_section(path);
-  if (!nearest.empty()) throw EntryError(message + " Did you mean \"" + nearest + "\"?", origin, nearest);
-  throw EntryError(message + "\n" + contents_of(section_of(path)), origin, "");
+void Parameters::apply(const FileText &file) {
+  sources_.insert(sources_.end(), file.sources.begin(), file.sources.end());
+  passed_over_.clear();
+  for (const Assignment &one : file.assignments)
+    if (!apply(one, file)) return;
 }
 
-std::string Parameters::last_of_its_kind(const std::string &path) const {
-  const std::size_t digits = path.find_last_not_of("0123456789") + 1;
-  if (digits == path.size()) return "";
-  std::string last;
-  for (const std::string &section : sections_)
-    if (section.find_last_not_of("0123456789") + 1 == digits &&
-        section.compare(0, digits, path, 0, digits) == 0 && section.size() > digits)
-      last = section; // in the order of their numbers
-  return last;
-}
-
-std::string Parameters::nearest_section(const std::string &path) const {
-  std::vector<std::string> siblings;
-  for (const std::string &section : sections_)
-    if (section_of(section) == section_of(path)) siblings.push_back(last_name(section));
-  const std::string outer = section_of(path);
-  if (outer.empty()) siblings.insert(siblings.end(), foreign_.begin(), foreign_.end());
-  const std::string sibling = nearest_word(last_name(path), siblings);
-  if (!sibling.empty()) return (outer.empty() ? "" : outer + "/") + sibling;
-  for (const std::string &section : sections_) // right name, wrong place
-    if (a_slip_apart(last_name(section), last_name(path))) return section;
-  return "";
-}
-
-std::string Parameters::contents_of(const std::string &section) const {
-  std::string names;
-  const auto add = [&](const std::string &path) {
-    if (section_of(path) == section) names += (names.empty() ? "" : ", ") + last_name(path);
-  };
-  for (const std::string &inner : sections_)
-    add(inner);
-  for (const Entry &entry : entries_)
-    add(entry.path);
-  return (section.empty() ? "Sections: " : "Section " + section + " holds: ") + names + ".";
-}
-
-void Parameters::refuse_unknown(const std::string &path, const Origin &origin) const {
-  const std::string section = section_of(path);
-  if (!section.empty()) enter(section, origin);
-  const std::string key = last_name(path);
-  std::vector<std::string> keys, everywhere, last_names;
-  for (const Entry &entry : entries_) {
-    if (section_of(entry.path) == section) keys.push_back(last_name(entry.path));
-    if (a_slip_apart(last_name(entry.path), key)) last_names.push_back(entry.path);
-    everywhere.push_back(entry.path);
+bool Parameters::apply(const Assignment &one, const FileText &file) {
+  const std::string path = one.section.empty() ? one.key : one.section + "/" + one.key;
+  if (one.kind == Assignment::Kind::broken) {
+    whole_ = false;
+    faults_.add({one.origin.text() + ": error: " + one.text, one.origin, ""});
+    return true;
   }
-  const std::string message =
-      origin.text() + ": error: " + shown(path) + " is not a parameter" + look_alike_in(path) + ".";
-  std::string nearest = nearest_word(key, keys);
-  if (nearest.empty() || !a_slip_apart(nearest, key))
-    if (const std::vector<std::string> longer = keys_with(key, keys); !longer.empty()) {
-      std::string names;
-      for (std::size_t k = 0; k < longer.size(); ++k)
-        names += (k == 0                  ? "\""
-                  : k + 1 < longer.size() ? ", \""
-                                          : " or \"") +
-                 section + "/" + longer[k] + "\"";
-      throw EntryError(message + " Did you mean " + names + "?", origin, section + "/" + longer.front());
-    }
-  if (!nearest.empty())
-    nearest = (section.empty() ? "" : section + "/") + nearest;
-  else if (!last_names.empty())
-    nearest = last_names.front(); // right key, wrong section
-  else
-    nearest = nearest_word(path, everywhere);
-  if (nearest.empty()) throw EntryError(message + "\n" + contents_of(section), origin, "");
-  const std::string about = limits(at(nearest));
-  throw EntryError(
-      message + " Did you mean \"" + nearest + "\"" + (about.empty() ? "" : " (" + about + ")") + "?", origin,
-      nearest);
+  if (!passed_over_.empty() && (one.section + "/").rfind(passed_over_ + "/", 0) == 0) return true;
+  if (one.kind == Assignment::Kind::section) {
+    if (attempt([&] { open(one, file); })) return true;
+    passed_over_ = one.section;
+    if (!lacks_end(one.section)) return true;
+    whole_ = false;
+    return false;
+  }
+  attempt([&] {
+    if (one.kind == Assignment::Kind::wrong)
+      throw EntryError(one.origin.text() + ": error: " + one.text, one.origin, begun(path));
+    if (is_section(path))
+      throw EntryError(one.origin.text() + ": error: " + path + " = " + shown(trimmed(one.text)) +
+                           " is a section. Allowed: an object, or subsection " + one.key + " ... end.",
+                       one.origin, path);
+    set(path, one.text, one.origin, one.line);
+  });
+  return true;
 }
 
-void Parameters::set(const std::string &path, const std::string &text, const Origin &origin) {
+// A section that stands in another one and is known outside: what follows is not of the section that it seems
+// to be of.
+bool Parameters::lacks_end(const std::string &path) const {
+  const auto slash = path.rfind('/');
+  return find(path) == nullptr && slash != std::string::npos && is_section(path.substr(slash + 1));
+}
+
+void Parameters::open(const Assignment &section, const FileText &file) {
+  const std::string &path = section.section, outer = path.substr(0, path.rfind('/'));
+  declare_written(path);
+  if (is_section(path) || is_foreign(path)) return;
+  const std::string message = section.origin.text() + ": error: " + shown(path);
+  if (find(path) != nullptr)
+    throw EntryError(message +
+                         " is an object without \"value\", or a section. Allowed: a number, a text, true, "
+                         "false.",
+                     section.origin, path);
+  if (!lacks_end(path)) throw unknown_section(path, section.origin);
+  Origin opened;
+  for (const Assignment &before : file.assignments) {
+    if (&before == &section) break;
+    if (before.kind == Assignment::Kind::section && before.section == outer) opened = before.origin;
+  }
+  throw EntryError(message + " is not a section. Is the \"end\" of section " +
+                       outer.substr(outer.rfind('/') + 1) + " (" + opened.text() + ") missing before it?",
+                   section.origin, path);
+}
+
+std::string Parameters::begun(const std::string &text) const {
+  std::string longest;
+  for (const Entry &entry : entries_)
+    if (entry.path.size() > longest.size() && text.rfind(entry.path, 0) == 0) longest = entry.path;
+  return longest;
+}
+
+void Parameters::set(const std::string &path, const std::string &text, const Origin &origin,
+                     const std::string &line) {
   if (is_foreign(path)) return;
-  if (find(path) == nullptr) refuse_unknown(path, origin);
+  declare_written(path);
+  if (find(path) == nullptr) throw unknown_entry(path, origin);
   Entry &entry = declared(path);
-  if (entry.origin.line > 0 && origin.depth >= entry.origin.depth)
-    throw EntryError(origin.text() + ": error: " + path + " = " + shown(trimmed(text)) +
-                         " is set twice: it was set to \"" + shown(entry.text) + "\" in " +
-                         entry.origin.text() + ". Allowed: once.",
-                     origin, path);
   const std::string value = trimmed(text);
+  const auto fail = [&](const std::string &reason) {
+    throw EntryError(
+        origin.text() + ": error: " + path + " = " + shown(value) + (value.empty() ? "" : " ") + reason,
+        origin, path);
+  };
+  if (const std::string unseen = unseen_in(text, line); !unseen.empty() && !entry.is_file && !entry.is_text)
+    fail(unseen);
+  if (entry.origin.line > 0 && origin.depth >= entry.origin.depth)
+    fail("is set twice: it was set to \"" + shown(entry.text) + "\" in " + entry.origin.text() +
+         ". Allowed: once.");
   try {
     check_characters(value);
     if (value.empty() && !entry.default_text.empty()) throw ValueError("has no value");
@@ -302,22 +203,11 @@ void Parameters::set(const std::string &path, const std::string &text, const Ori
     std::string reason = error.what();
     if (reason.back() != '.' && reason.back() != '?') reason += '.';
     if (first_look_alike(value)) reason += " It holds " + text_of_odd_character(value) + ".";
-    throw EntryError(origin.text() + ": error: " + path + " = " + shown(value) + (value.empty() ? "" : " ") +
-                         reason + (about.empty() ? "" : " Allowed: " + about + "."),
-                     origin, path);
+    fail(reason + (about.empty() ? "" : " Allowed: " + about + "."));
   }
   if (entry.origin.option == 0) entry.of_file = entry.text;
   entry.text = value;
   entry.origin = origin;
-}
-
-void Parameters::require_seen(const std::string &path, const std::string &value, const std::string &whole,
-                              const Origin &origin) const {
-  const Entry *entry = find(path);
-  const std::string fault = unseen_in(value, whole);
-  if (fault.empty() || entry == nullptr || entry->is_file || entry->is_text) return;
-  throw EntryError(origin.text() + ": error: " + path + " = " + shown(trimmed(value)) + " " + fault, origin,
-                   path);
 }
 
 void Parameters::supply(const std::string &path, const std::string &text) {
@@ -334,34 +224,33 @@ void Parameters::supply(const std::string &path, const std::string &text, const 
 
 void Parameters::override_entry(const std::string &assignment, int number) {
   const Origin origin{"command line, --set " + std::to_string(number), 0, -1, number};
+  const auto fail = [&](const std::string &what) {
+    throw EntryError(origin.text() + ": error: \"" + shown(assignment) + "\" " + what, origin, "");
+  };
   const auto equals = assignment.find('=');
   if (equals == std::string::npos)
-    throw EntryError(
-        origin.text() + ": error: \"" + shown(assignment) +
-            "\" sets nothing. Allowed: \"Section/Key = value\", e.g. \"Contact/Friction = 0.3\".",
-        origin, "");
-  const std::string key = assignment.substr(0, equals), fault = unseen_in(key, assignment);
-  if (!fault.empty())
-    throw EntryError(origin.text() + ": error: \"" + shown(assignment) + "\" " + fault, origin, "");
-  std::string path, part;
-  const std::string names = key + "/";
-  for (const char c : names) {
-    if (c != '/') {
-      part += c;
-      continue;
-    }
-    path += (path.empty() ? "" : "/") + tidy(part);
-    part.clear();
+    fail("sets nothing. Allowed: \"Section/Key = value\", e.g. \"Contact/Friction = 0.3\".");
+  const std::string names = assignment.substr(0, equals), unseen = unseen_in(names, assignment);
+  if (!unseen.empty()) fail(unseen);
+  std::string path; // blanks beside slashes mean nothing
+  for (std::size_t first = 0; first <= names.size();) {
+    const std::size_t slash = std::min(names.find('/', first), names.size());
+    path += (path.empty() ? "" : "/") + tidy(names.substr(first, slash - first));
+    first = slash + 1;
   }
-  const std::string value = assignment.substr(equals + 1);
-  require_seen(path, value, assignment, origin);
-  set(path, value, origin);
+  set(path, assignment.substr(equals + 1), origin, assignment);
+}
+
+void Parameters::pretend(const std::string &path, const std::string &word) {
+  Entry &entry = declared(path);
+  entry.text = word.empty() ? entry.default_text : word;
+  entry.read(entry.text);
 }
 
 void Parameters::refuse(const std::string &path, const std::string &reason) const {
   const Entry &entry = at(path);
-  const std::string scene = sources_.empty() ? "" : sources_.front();
-  const Origin origin = entry.origin.file.empty() ? Origin{scene, 0, 0, 0} : entry.origin;
+  const Origin origin =
+      entry.origin.file.empty() ? Origin{sources_.empty() ? "" : sources_.front()} : entry.origin;
   const std::string place = origin.text();
   throw EntryError((place.empty() ? "" : place + ": ") + "error: " + path +
                        (entry.text.empty() ? "" : " = " + shown(entry.text)) + " " + reason,
@@ -395,12 +284,8 @@ std::string Parameters::with_entries(const std::string &message) const {
 // "Bond/Radius" is not named by "Bond/Radius rule is ...": the longest entry that stands there is.
 bool Parameters::names_a_fault(const std::string &message) const {
   const auto names = [&](const std::string &faulty) {
-    for (std::size_t at = message.find(faulty); at != std::string::npos; at = message.find(faulty, at + 1)) {
-      const bool longer = std::any_of(entries_.begin(), entries_.end(), [&](const Entry &entry) {
-        return entry.path.size() > faulty.size() && message.compare(at, entry.path.size(), entry.path) == 0;
-      });
-      if (!longer || is_section(faulty)) return true;
-    }
+    for (std::size_t at = message.find(faulty); at != std::string::npos; at = message.find(faulty, at + 1))
+      if (is_section(faulty) || begun(message.substr(at)) == faulty) return true;
     return false;
   };
   return std::any_of(faults_.all().begin(), faults_.all().end(),
@@ -416,18 +301,11 @@ void Parameters::throw_faults() const {
   if (!faults_.empty()) throw SceneFaults(faults_.text(sources_), faults_.sorted(sources_));
 }
 
-void Parameters::pretend(const std::string &path, const std::string &word) {
-  Entry &entry = declared(path);
-  entry.text = word.empty() ? entry.default_text : word;
-  entry.read(entry.text);
-}
-
 void Parameters::release() {
-  for (Entry &entry : entries_) {
-    entry.read = nullptr;
-    entry.idle.clear();
-    entry.needed.clear();
-  }
+  for (Entry &entry : entries_)
+    entry.read = nullptr, entry.idle.clear(), entry.needed.clear();
+  for (Series &one : series_)
+    one.declare = nullptr;
 }
 
 } // namespace platen::apps

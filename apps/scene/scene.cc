@@ -89,12 +89,9 @@ void inherit(Scene &scene, Parameters &parameters, const Program &program) {
 
 // Of sections alike what is set; documented the first one whole.
 std::vector<Entry> written(const Parameters &parameters, bool documented) {
-  std::vector<Entry> entries = parameters.entries();
-  const auto is_left_out = [&](const Entry &entry) {
-    return !entry.changed() &&
-           (entry.alike == Entry::Alike::further || (entry.alike == Entry::Alike::first && !documented));
-  };
-  entries.erase(std::remove_if(entries.begin(), entries.end(), is_left_out), entries.end());
+  std::vector<Entry> entries;
+  for (const Entry &entry : parameters.entries())
+    if (entry.number == 0 || entry.changed() || (entry.number == 1 && documented)) entries.push_back(entry);
   return entries;
 }
 
@@ -113,11 +110,11 @@ std::string nearest_part(const Parameters &parameters, const std::string &part) 
 
 // A section, with what is in it, or one entry.
 std::vector<Entry> part_of(const Parameters &parameters, const std::string &part) {
-  std::vector<Entry> entries;
+  std::vector<Entry> entries = parameters.unwritten(part);
   for (const Entry &entry : parameters.entries()) {
     const bool inside = entry.path.rfind(part + "/", 0) == 0,
                itself = entry.path.substr(0, entry.path.rfind('/')) == part;
-    const bool told = entry.changed() || entry.alike != Entry::Alike::further || itself;
+    const bool told = entry.changed() || entry.number <= 1 || itself;
     if (entry.path == part || (inside && told)) entries.push_back(entry);
   }
   if (!entries.empty()) return entries;
@@ -165,8 +162,7 @@ Scene read(const std::string &path, const std::vector<std::string> &overrides, c
   declare(scene, parameters, program);
   scene.path = path;
   scene.name = std::filesystem::path(path).stem().string();
-  parameters.collect();
-  if (!parameters.attempt([&] { read_scene_file(path, parameters); })) parameters.lose_part();
+  parameters.apply(file_assignments(path));
   for (std::size_t k = 0; k < overrides.size(); ++k)
     parameters.attempt([&] { parameters.override_entry(overrides[k], static_cast<int>(k) + 1); });
   if (parameters.whole()) inherit(scene, parameters, program);

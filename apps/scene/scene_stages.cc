@@ -60,10 +60,10 @@ double value_of(const std::string &text, const std::string &unit) {
   if (text.empty()) throw ValueError("has no value");
   const NumberWithUnit number = split_number(text);
   const double value = to_si(number, unit);
-  const Allowed allowed = physical("", unit, at_least(0));
-  if (!allowed.holds(std::abs(value)))
-    throw ValueError("has a value out of range, " + allowed.text() + (unit == "1" ? "" : " " + unit));
-  if (number.unit.empty()) require_meant(value, unit, allowed);
+  const Quantity quantity("", unit, at_least(0));
+  if (!quantity.holds(std::abs(value)))
+    throw ValueError("has a value out of range, " + quantity.allowed() + (unit == "1" ? "" : " " + unit));
+  quantity.require_meant(number);
   return value;
 }
 

@@ -77,9 +77,10 @@ void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model)
       .needed_if("Bond/Strength scatter", {"weibull"});
   Members size(section, bond.size);
   size("calibrated_radius");
-  for (const char *member : {"calibrated_width", "modulus_exponent", "strength_exponent"})
-    size(member).only_if([](const Scene &s) { return s.bond.size.reference > 0; },
-                         "Bond/Calibrated radius = 0");
+  Members(
+      section.only_if([](const Scene &s) { return s.bond.size.reference > 0; }, "Bond/Calibrated radius = 0"),
+      bond.size)
+      .rest();
   declare_calibrated(section, bond.calibrated);
   layout("interaction_range").only_if("Effects/Bond", by_range).told(joined(by_range));
   layout("area_factor");
@@ -95,17 +96,15 @@ void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model)
 
 void declare_phases(Parameters &parameters, PhasesSection &phases) {
   Section section(parameters, "Phases");
-  Members of(section, phases.phases);
   section.entry<PhasesBy>("By", phases.by,
                           {{"none", PhasesBy::none}, {"radius", PhasesBy::radius}, {"file", PhasesBy::file}},
                           "What tells the spheres of the aggregate from those of the matrix.");
-  of("radius_above").only_if("Phases/By", {"radius"}).needed_if("Phases/By", {"radius"});
+  Members(section, phases.phases)("radius_above")
+      .only_if("Phases/By", {"radius"})
+      .needed_if("Phases/By", {"radius"});
   section.file("File", phases.file, "Ids of the spheres that are aggregate, one a line.")
       .only_if("Phases/By", {"file"});
-  for (const char *member : {"aggregate_modulus_factor", "aggregate_strength_factor",
-                             "interface_modulus_factor", "interface_strength_factor"})
-    of(member).unless("Phases/By", {"none"});
-  of.rest();
+  Members(section.unless("Phases/By", {"none"}), phases.phases).rest();
 }
 
 } // namespace platen::apps

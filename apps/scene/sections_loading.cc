@@ -16,66 +16,52 @@ bool any_weakens(const Scene &scene, By by) {
   return scene.platens.any_of([&](coupling::Side side) { return scene.platens.at(side).weakening.by == by; });
 }
 
-// `member` is the path of the side in the library's settings; both empty: of what all platens have.
-void declare_friction(Section &section, dem::SurfaceFriction &friction, const std::string &common,
-                      const std::string &member) {
+// Of one platen, whose path in the library's settings is `member`, or of all; "" then.
+void declare_friction(Section &section, dem::SurfaceFriction &friction, const std::string &member) {
+  const bool of_all = member.empty();
   Members of(section, friction);
-  const auto own = [&](const Declared &declared, const std::string &key, const char *taken) {
-    if (!common.empty()) Declared(declared).says("As " + common + key + taken);
-  };
-  own(of("friction_static"), "Friction static", " where not given.");
-  own(of("friction_dynamic"), "Friction dynamic", " where not given.");
+  const auto weakens = [](By by) { return [by](const Scene &s) { return any_weakens(s, by); }; };
+  of("friction_static");
+  of("friction_dynamic");
   Words<By> laws = words_of<dem::SurfaceFriction, By>("friction_law");
-  if (common.empty())
+  if (!of_all) laws.insert(laws.begin(), {"common", By::nothing});
+  if (of_all)
     of("friction_law");
   else
-    laws.insert(laws.begin(), {"common", By::nothing}),
-        section.entry("Friction law", friction.weakening.by, laws,
-                      "As " + common + "Friction law; common: as both.");
-  own(of("slip_length")
-          .only_if([](const Scene &s) { return any_weakens(s, By::slip); },
-                   "no Friction law is slip weakening"),
-      "Slip length", " where not given.");
-  own(of("slip_velocity")
-          .only_if([](const Scene &s) { return any_weakens(s, By::velocity); },
-                   "no Friction law is velocity weakening"),
-      "Slip velocity", " where not given.");
-  of.rest({"friction_law"});
-  if (member.empty()) return;
-  for (const char *name :
-       {"friction_static", "friction_dynamic", "friction_law", "slip_length", "slip_velocity"})
-    section.at(key_of(name)).member(member + name);
+    section.entry("Friction law", friction.weakening.by, laws, "As Platens/Friction law; common: as both.");
+  of("slip_length").only_if(weakens(By::slip), "no Friction law is slip weakening");
+  of("slip_velocity").only_if(weakens(By::velocity), "no Friction law is velocity weakening");
+  if (of_all) return;
+  for (const char *name : {"friction_static", "friction_dynamic", "slip_length", "slip_velocity"})
+    section.at(key_of(name)).says("As Platens/" + key_of(name) + " where not given.").member(member + name);
+  section.at("Friction law").member(member + "friction_law");
 }
 
-void declare_side(Parameters &parameters, Platens &platens, coupling::Side side) {
-  Section section(parameters, section_of(side));
+void declare_side(Section section, Platens &platens, coupling::Side side) {
+  const std::string member = std::string("platens.") + coupling::name_of(side) + ".";
+  const int axis = coupling::axis_of(side);
   section.entry<SurfaceKind>("Surface", platens.face(side).surface, surface_words(true),
                              "As Platens/Surface, of this platen alone; common: as both.");
-  declare_friction(section, platens.at(side), "Platens/",
-                   std::string("platens.") + coupling::name_of(side) + ".");
-  const bool along_z = coupling::axis_of(side) == 2;
-  const std::string turned =
-      std::string(" As for ") + (coupling::is_high(side) ? "Top" : "Bottom") + ", its z along " +
-      (coupling::axis_of(side) == 0 ? "x, x along y, y along z." : "y, x along z, y along x.");
+  declare_friction(section, platens.at(side), member);
+  const std::string turned = std::string(" As for ") + (coupling::is_high(side) ? "Top" : "Bottom") +
+                             ", its z along " +
+                             (axis == 0 ? "x, x along y, y along z." : "y, x along z, y along x.");
   section
       .file("Mesh file", platens.face(side).mesh_file,
             "Gmsh mesh of hexahedra (.msh, 2.2 or 4.1) in place of a plate: its extreme plane towards the "
             "specimen is laid on the end, the far plane is the machine's." +
-                (along_z ? "" : turned))
-      .member(std::string("platens.") + coupling::name_of(side) + ".grid");
+                (axis == 2 ? "" : turned))
+      .member(member + "grid");
 }
 
 // Left and right along x, front and back along y.
 void declare_further_sides(Parameters &parameters, Platens &platens) {
-  for (const coupling::Side side : coupling::all_sides) {
-    if (coupling::axis_of(side) == 2) continue;
-    const std::size_t first = parameters.entries().size();
-    declare_side(parameters, platens, side);
-    for (std::size_t k = first; k < parameters.entries().size(); ++k)
-      Declared(parameters, parameters.entries()[k].path)
-          .only_if([side](const Scene &s) { return s.platens.has(side); },
-                   "Platens/Sides leaves that side free");
-  }
+  for (const coupling::Side side : coupling::all_sides)
+    if (coupling::axis_of(side) != 2)
+      declare_side(Section(parameters, section_of(side))
+                       .only_if([side](const Scene &s) { return s.platens.has(side); },
+                                "Platens/Sides leaves that side free"),
+                   platens, side);
 }
 
 constexpr const char *layers_allowed =
@@ -88,51 +74,44 @@ void declare_layers(Section &section, Platens &platens) {
              "platens' own Young modulus, Poisson ratio and Density, which is the material platen; without a "
              "Thickness platens are as thick as their layers. Of a mesh the physical volumes are the layers, "
              "in their order: the names alone count. Empty: one material, or the Pad on it.")
-      .member("platens.elastic.layers")
-      .unless("Platens/Kind", {"rigid"});
-  section
-      .value(
-          "Layer materials", platens.layer_materials, "",
-          "of each its name, Young modulus, Poisson ratio and density, semicolons between them: \"rubber: 5 "
-          "MPa, 0.49, 1100 kg/m3; steel: 210 GPa, 0.3, 7850 kg/m3\"",
-          read_layer_materials, "What the names in Layers mean; all but platen have to be given.")
-      .unless("Platens/Kind", {"rigid"});
+      .member("platens.elastic.layers");
+  section.value(
+      "Layer materials", platens.layer_materials, "",
+      "of each its name, Young modulus, Poisson ratio and density, semicolons between them: \"rubber: 5 "
+      "MPa, 0.49, 1100 kg/m3; steel: 210 GPa, 0.3, 7850 kg/m3\"",
+      read_layer_materials, "What the names in Layers mean; all but platen have to be given.");
 }
 
-void declare_own_layers(Parameters &parameters, coupling::Side side, std::vector<NamedLayer> &layers) {
-  const std::string name = coupling::name_of(side);
-  Section section(parameters, side == coupling::Side::top ? "Platens/Top" : "Platens/Bottom");
-  section
+void declare_own_layers(const Section &section, coupling::Side side, std::vector<NamedLayer> &layers) {
+  section.unless("Platens/Kind", {"rigid"})
       .value("Layers", layers, "", layers_allowed, read_layers,
              "As Platens/Layers, of this platen alone; empty: as both.")
-      .member("platens." + name + ".layers")
-      .unless("Platens/Kind", {"rigid"});
+      .member(std::string("platens.") + coupling::name_of(side) + ".layers");
 }
 
-void declare_elastic(Section &section, Platens &platens) {
+// A mesh may bring a second material of its own.
+std::string needs_pad(const Situation &s) {
+  const Platens &p = s.scene.platens;
+  const double pad = p.elastic->pad_thickness;
+  const bool wanted = (pad > 0 && pad < p.thickness) || (p.meshed() && given(p.elastic->pad.young_modulus));
+  return s.loads() && p.deformable && wanted ? "the pad has to have one." : "";
+}
+
+void declare_elastic(Section section, Platens &platens) {
   Members of(section, *platens.elastic);
-  of("motion").unless("Platens/Kind", {"rigid"});
-  of("degree").unless("Platens/Kind", {"rigid"});
-  of("damping", "Body damping").unless("Platens/Kind", {"rigid"}).only_if("Platens/Motion", {"explicit"});
-  of("steps_per_solve").unless("Platens/Kind", {"rigid"}).only_if("Platens/Motion", {"quasi-static"});
+  of("motion");
+  of("degree");
+  of("damping", "Body damping").only_if("Platens/Motion", {"explicit"});
+  of("steps_per_solve").only_if("Platens/Motion", {"quasi-static"});
   declare_layers(section, platens);
-  of("pad_thickness").unless("Platens/Kind", {"rigid"});
-  for (Declared declared :
-       {of("pad_modulus"), of("pad_poisson_ratio", "Pad Poisson ratio"), of("pad_density")})
-    declared
-        .only_if(
-            [](const Scene &s) {
-              return s.platens.deformable && (s.platens.elastic->pad_thickness > 0 || s.platens.meshed());
-            },
-            "platens have no pad")
-        .needed_if([](const Situation &s) {
-          const Platens &p = s.scene.platens; // a mesh may bring a second material of its own
-          const double pad = p.elastic->pad_thickness;
-          const bool wanted =
-              (pad > 0 && pad < p.thickness) || (p.meshed() && given(p.elastic->pad.young_modulus));
-          return s.loads() && p.deformable && wanted ? "the pad has to have one." : "";
-        });
-  of.rest();
+  of("pad_thickness");
+  Members pad(section.only_if(
+                  [](const Scene &s) { return s.platens.elastic->pad_thickness > 0 || s.platens.meshed(); },
+                  "platens have no pad"),
+              *platens.elastic);
+  for (const auto &[member, key] :
+       {std::pair("pad_modulus", ""), {"pad_poisson_ratio", "Pad Poisson ratio"}, {"pad_density", ""}})
+    pad(member, key).needed_if(needs_pad);
 }
 
 } // namespace
@@ -158,17 +137,16 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
                              "What both platens' faces are: the entries that a word stands for, each where "
                              "the scene does not give it. " +
                                  surface_documentation());
-  declare_friction(section, platens.both, "", "");
+  declare_friction(section, platens.both, "");
   of("contact");
-  const auto hertz = [](const Scene &s) { return s.hertz_on_platens(); };
-  const auto linear = [](const Scene &s) { return !s.hertz_on_platens(); };
-  const std::string by_hertz = "grains press on platens by Hertz' law";
-  of("contact_modulus").only_if(hertz, "no grain presses on platens by Hertz' law");
-  section
-      .stiffness("Stiffness", platens.stiffness, false,
-                 "Penalty stiffness of grains on platens; a multiple is that of the mean bond.")
-      .only_if(linear, by_hertz);
-  of("tangential_ratio").only_if(linear, by_hertz);
+  of("contact_modulus")
+      .only_if([](const Scene &s) { return s.hertz_on_platens(); },
+               "no grain presses on platens by Hertz' law");
+  Section linear = section.only_if([](const Scene &s) { return !s.hertz_on_platens(); },
+                                   "grains press on platens by Hertz' law");
+  linear.stiffness("Stiffness", platens.stiffness, false,
+                   "Penalty stiffness of grains on platens; a multiple is that of the mean bond.");
+  Members(linear, static_cast<coupling::PlatenSettings &>(platens))("tangential_ratio");
   of("damping");
   of("overhang").unless("Platens/Sides", {"six"});
   of("partial_cover", "Cover")
@@ -191,50 +169,60 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
             return s.platens.deformable || (s.hertz_on_platens() && s.platens.contact_modulus > 0);
           },
           "Platens/Kind = rigid");
-  declare_elastic(section, platens);
+  declare_elastic(section.unless("Platens/Kind", {"rigid"}), platens);
   section.entry("Mesh unit", platens.mesh_unit, "m", above(0), "Unit of length of the mesh files.")
       .only_if([](const Scene &s) { return s.platens.meshed(); }, "no platen has a Mesh file");
   of("glued", "Attachment");
   Members machine(section, platens.machine);
   machine("stiffness", "Machine stiffness");
-  for (Declared declared : {machine("mass", "Machine mass"), machine("damping", "Machine damping")})
-    declared.only_if([](const Scene &s) { return s.platens.machine.yields(); },
-                     "Platens/Machine stiffness is not set");
+  const Section behind = section.only_if([](const Scene &s) { return s.platens.machine.yields(); },
+                                         "Platens/Machine stiffness is not set");
+  Members yielding(behind, platens.machine);
+  yielding("mass", "Machine mass");
+  yielding("damping", "Machine damping");
   of.rest({"spherical_seat"});
-  declare_side(parameters, platens, coupling::Side::top);
-  Section top(parameters, "Platens/Top");
+  Section top(parameters, "Platens/Top"), bottom(parameters, "Platens/Bottom");
+  declare_side(top, platens, coupling::Side::top);
   Members control(top, loading);
   control("servo", "Control");
   Members(top, static_cast<coupling::PlatenSettings &>(platens))("spherical_seat", "Seat");
   control("top_stress", "Stress").unless("Platens/Top/Control", {"motion"}).told("Control = stress");
-  declare_own_layers(parameters, coupling::Side::top, platens.top_layers);
-  declare_side(parameters, platens, coupling::Side::bottom);
-  declare_own_layers(parameters, coupling::Side::bottom, platens.bottom_layers);
+  declare_own_layers(top, coupling::Side::top, platens.top_layers);
+  declare_side(bottom, platens, coupling::Side::bottom);
+  declare_own_layers(bottom, coupling::Side::bottom, platens.bottom_layers);
   declare_further_sides(parameters, platens);
 }
 
 void declare_sleeve(Parameters &parameters, coupling::CellSettings &cell) {
-  Section section(parameters, "Sleeve");
+  const Section section =
+      Section(parameters, "Sleeve")
+          .only_if(
+              [](const Situation &s) { return s.scene.loading.sleeved() || s.used_by_program("Sleeve"); },
+              "Loading/Confinement is not sleeve");
   Members of(section, *cell.sleeve);
   Members in(section, cell);
-  for (Declared declared :
-       {of("thickness"), of("young_modulus", "Modulus"), of("poisson_ratio"), of("density"),
-        of("bonded_rims", "Rims"), of("elements_around"), of("elements_through"), of("friction"),
-        in("sleeve_stiffness", "Stiffness"), in("sleeve_seat_depth", "Seat depth"), of("contact_damping"),
-        of("mass_damping", "Damping"), of("mass_scaling")})
-    declared.only_if(
-        [](const Situation &s) { return s.scene.loading.sleeved() || s.used_by_program("Sleeve"); },
-        "Loading/Confinement is not sleeve");
+  of("thickness");
+  of("young_modulus", "Modulus");
+  for (const char *member : {"poisson_ratio", "density"})
+    of(member);
+  of("bonded_rims", "Rims");
+  for (const char *member : {"elements_around", "elements_through", "friction"})
+    of(member);
+  in("sleeve_stiffness", "Stiffness");
+  in("sleeve_seat_depth", "Seat depth");
+  of("contact_damping");
+  of("mass_damping", "Damping");
   of.rest();
 }
 
 void declare_loading(Parameters &parameters, Loading &loading) {
   Section section(parameters, "Loading");
-  Members of(section, loading);
-  Members cell(section, *loading.cell);
-  const auto driven = [](const Scene &s) { return s.loading.servo || s.loading.confined(); };
   const auto unstaged = [](const Scene &s) { return !s.loading.staged(); };
   const std::string staged = "Loading/Stage 1 is there";
+  const Section axial = section.unless("Loading/Test", {"hydrostatic"}),
+                cell = section.unless("Loading/Confinement", {"none"});
+  Members of(section, loading), along(axial, loading);
+  Members in(cell, *loading.cell), alone(cell.only_if(unstaged, staged), *loading.cell);
   section
       .entry("Test", loading.test, loading_tests,
              "The platens approach or part; hydrostatic: they and the lateral surface press alike, up to "
@@ -243,7 +231,7 @@ void declare_loading(Parameters &parameters, Loading &loading) {
              "along x, two below.")
       .member("loading.tension")
       .member("loading.wall");
-  of("rate", "Axial rate").unless("Loading/Test", {"hydrostatic"}).needed_if([](const Situation &s) {
+  along("rate", "Axial rate").needed_if([](const Situation &s) {
     const bool own = s.loads() && s.program.presses != Presses::trials;
     return own && !s.scene.loading.hydrostatic() && !s.scene.loading.staged() && !s.rate_by_transits() &&
                    !s.given_by_program("Loading/Axial rate")
@@ -252,17 +240,16 @@ void declare_loading(Parameters &parameters, Loading &loading) {
   });
   of("wave_transits", "Wave crossings")
       .only_if([](const Scene &s) { return !given(s.loading.rate); }, "Loading/Axial rate is set");
-  of("rate_multiplier", "Hurry")
-      .unless("Platens/Top/Control", {"stress"})
-      .unless("Loading/Test", {"hydrostatic"});
+  along("rate_multiplier", "Hurry").unless("Platens/Top/Control", {"stress"});
   of("ramp");
-  of("hold").only_if(driven, "Platens/Top/Control = motion").only_if(unstaged, staged);
+  of("hold")
+      .only_if([](const Scene &s) { return s.loading.servo || s.loading.confined(); },
+               "Platens/Top/Control = motion")
+      .only_if(unstaged, staged);
   of("start_strain");
-  of("target_strain").unless("Loading/Test", {"hydrostatic"}).only_if(unstaged, staged);
-  section
-      .number("Stop at residual", loading.stop_at_residual, between(0, 0.99),
-              "Stress after the peak, as a fraction of it, at which the run is over; 0: never.")
-      .unless("Loading/Test", {"hydrostatic"});
+  along("target_strain").only_if(unstaged, staged);
+  Section(axial).number("Stop at residual", loading.stop_at_residual, between(0, 0.99),
+                        "Stress after the peak, as a fraction of it, at which the run is over; 0: never.");
   of("servo_gain")
       .only_if([](const Scene &s) { return s.loading.servo || s.loading.confined() || s.loading.staged(); },
                "Platens/Top/Control = motion");
@@ -275,18 +262,16 @@ void declare_loading(Parameters &parameters, Loading &loading) {
           "How the lateral surface is pressed; particles: by forces on those of the surface; sleeve: by oil "
           "through rubber of finite elements.")
       .member("loading.cell");
-  cell("pressure", "Confining pressure").unless("Loading/Confinement", {"none"}).only_if(unstaged, staged);
-  cell("ramp", "Confining ramp").unless("Loading/Confinement", {"none"}).only_if(unstaged, staged);
-  cell("path", "Pressure path")
-      .unless("Loading/Confinement", {"none"})
-      .unless("Loading/Test", {"hydrostatic"});
+  alone("pressure", "Confining pressure");
+  alone("ramp", "Confining ramp");
+  in("path", "Pressure path").unless("Loading/Test", {"hydrostatic"});
   of("wall_stiffness").only_if("Loading/Test", {"uniaxial strain"});
   of("unload_at");
   of("unload_to")
       .only_if([](const Scene &s) { return !s.loading.unload_at.empty(); }, "Loading/Unload at is empty");
-  cell("area", "Confinement area").only_if("Loading/Confinement", {"particles"});
+  in("area", "Confinement area").only_if("Loading/Confinement", {"particles"});
   of.rest({"servo", "top_stress"});
-  cell.rest({"sleeve_stiffness", "sleeve_seat_depth"});
+  in.rest({"sleeve_stiffness", "sleeve_seat_depth"});
 }
 
 } // namespace platen::apps

@@ -28,14 +28,11 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
       "Radius distribution", specimen.radius_distribution,
       {{"equal", RadiusKind::equal}, {"two sizes", RadiusKind::two_sizes}, {"uniform", RadiusKind::uniform}},
       "How radii are drawn; uniform with a spread of 0 is equal spheres.");
-  section
-      .number("Second radius ratio", specimen.second_radius_ratio, above_up_to(0, 1),
-              "Smaller radius over the larger one.")
-      .only_if("Specimen/Radius distribution", {"two sizes"});
-  section
-      .number("Second fraction", specimen.second_fraction, between(0, 1),
-              "Share of the number of spheres that has the smaller radius.")
-      .only_if("Specimen/Radius distribution", {"two sizes"});
+  Section two_sizes = section.only_if("Specimen/Radius distribution", {"two sizes"});
+  two_sizes.number("Second radius ratio", specimen.second_radius_ratio, above_up_to(0, 1),
+                   "Smaller radius over the larger one.");
+  two_sizes.number("Second fraction", specimen.second_fraction, between(0, 1),
+                   "Share of the number of spheres that has the smaller radius.");
   section.entry<PackingKind>("Packing", specimen.packing,
                              {{"advancing front", PackingKind::advancing_front},
                               {"random close", PackingKind::random_close},
@@ -79,14 +76,15 @@ void declare_material(Parameters &parameters, dem::ModelSettings &model, dem::Co
   Members of(section, model);
   of("density");
   of("density_of");
-  Members grains(section, contact);
-  for (const char *member : {"young_modulus", "poisson_ratio"})
-    grains(member).only_if(
-        [](const Scene &s) {
-          return s.effects.contact == dem::NormalContact::hertz ||
-                 s.contact.stiffness.kind == Stiffness::Kind::of_bulk || s.hertz_on_platens();
-        },
-        "no contact law takes it");
+  Members grains(section.only_if(
+                     [](const Scene &s) {
+                       return s.effects.contact == dem::NormalContact::hertz ||
+                              s.contact.stiffness.kind == Stiffness::Kind::of_bulk || s.hertz_on_platens();
+                     },
+                     "no contact law takes it"),
+                 contact);
+  grains("young_modulus");
+  grains("poisson_ratio");
 }
 
 void declare_effects(Parameters &parameters, Scene &scene) {
@@ -116,8 +114,9 @@ void declare_contact(Parameters &parameters, dem::ContactSettings &contact) {
   Section section(parameters, "Contact");
   Members of(section, contact);
   of("friction").unless("Effects/Tangential", {"none"});
+  Members linear(section.only_if("Effects/Contact", {dem::LinearContact::word}), contact);
   for (const char *member : {"stiffness", "tangential_ratio", "damping"})
-    of(member).only_if("Effects/Contact", {dem::LinearContact::word});
+    linear(member);
   of("restitution").only_if("Effects/Contact", {dem::HertzContact::word});
   of("rolling_friction").only_if("Effects/Tangential", {"coulomb with rolling resistance"});
   of.rest({"tangential", "young_modulus", "poisson_ratio"});

@@ -35,20 +35,17 @@ void declare_stage(Parameters &parameters, StageSection &stage, std::size_t numb
     section
         .value(key_of(group), stage.asks.at(static_cast<std::size_t>(group)), "", asked_words, read_ask,
                about(group))
-        .member(member + coupling::name_of(group))
-        .alike(number == 1);
+        .member(member + coupling::name_of(group));
   section
       .entry("Ramp", stage.ramp, "s", at_least(0),
              "From what the stage finds to what it asks, smoothly; 0: sixty wave crossings for a stress, ten "
              "for a "
              "rate.")
-      .member(member + "ramp")
-      .alike(number == 1);
+      .member(member + "ramp");
   section
       .entry("Hold", stage.hold, "s", at_least(0),
              "How long it goes on after the ramp before it counts as settled.")
-      .member(member + "hold")
-      .alike(number == 1);
+      .member(member + "hold");
   section
       .value("Until", stage.until, "", end_words, read_until,
              "What ends it, any of a list. Strain: closure of the axis over its length since the end of a "
@@ -57,15 +54,15 @@ void declare_stage(Parameters &parameters, StageSection &stage, std::size_t numb
              "that at its start, less a cell's pressure; settled: each stress is within 1 % of what is "
              "asked, or "
              "twice ramp and hold have passed.")
-      .member(member + "until")
-      .alike(number == 1);
+      .member(member + "until");
 }
 
 } // namespace
 
 void declare_stages(Parameters &parameters, std::array<StageSection, most_stages> &stages) {
-  for (std::size_t k = 0; k < stages.size(); ++k)
-    declare_stage(parameters, stages[k], k + 1);
+  parameters.declare_series(
+      section_of_stage(1), stages.size(),
+      [&stages](Parameters &to, std::size_t number) { declare_stage(to, stages[number - 1], number); });
 }
 
 } // namespace platen::apps

@@ -17,6 +17,8 @@ coupling::PlatenSettings platen_settings(const Scene &scene) {
   if (!all.has(Side::front)) all.front.reset(), all.back.reset();
   if (!all.deformable) all.elastic.reset();
   if (!scene.loading.bending()) all.span = not_given;
+  const auto is_plate = [&](coupling::Side side) { return all.face(side).mesh_file.empty(); };
+  if (!all.any_of(is_plate)) all.thickness = 0; // meshes are as thick as they are
   return all;
 }
 

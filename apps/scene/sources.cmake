@@ -1,11 +1,12 @@
 set(PLATEN_SCENE_SOURCES
   scene/units.cc
   scene/values.cc
-  scene/physical.cc
+  scene/quantity.cc
   scene/parameters.cc
+  scene/suggestions.cc
+  scene/texts.cc
   scene/faults.cc
   scene/declare.cc
-  scene/declared.cc
   scene/members.cc
   scene/sections.cc
   scene/sections_bond.cc
@@ -13,10 +14,8 @@ set(PLATEN_SCENE_SOURCES
   scene/sections_loading.cc
   scene/sections_specimen.cc
   scene/sections_stages.cc
-  scene/file_text.cc
-  scene/prm_file.cc
-  scene/program.cc
-  scene/json_file.cc
+  scene/assignments.cc
+  scene/assignments_json.cc
   scene/parameter_writer.cc
   scene/checks.cc
   scene/checks_bond.cc
@@ -24,6 +23,7 @@ set(PLATEN_SCENE_SOURCES
   scene/checks_notes.cc
   scene/checks_scale.cc
   scene/checks_specimen.cc
+  scene/program.cc
   scene/quality.cc
   scene/scene.cc
   scene/settings.cc

@@ -1,166 +1,127 @@
 #include "apps/scene/units.h"
 
-#include <locale.h>
-#include <udunits2.h>
-#include <clocale>
-
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <map>
-#include <memory>
-#include <string_view>
+#include <optional>
 #include <vector>
 
-#include "apps/scene/parameters.h"
+#include "apps/scene/texts.h"
 #include "base/characters.h"
+#include "base/pi.h"
 
 namespace platen::apps {
 namespace {
 
-struct FreeUnit {
-  void operator()(ut_unit *unit) const { ut_free(unit); }
-};
-struct FreeConverter {
-  void operator()(cv_converter *converter) const { cv_free(converter); }
-};
-using Unit = std::unique_ptr<ut_unit, FreeUnit>;
-using Converter = std::unique_ptr<cv_converter, FreeConverter>;
-
-// UDUNITS reads decimal numbers with strtod, in its data file and in units: a comma locale would misread
-// them.
-class PlainNumbers {
-public:
-  PlainNumbers() : plain_(newlocale(LC_NUMERIC_MASK, "C", nullptr)), former_(uselocale(plain_)) {}
-  ~PlainNumbers() {
-    uselocale(former_);
-    freelocale(plain_);
-  }
-  PlainNumbers(const PlainNumbers &) = delete;
-  PlainNumbers &operator=(const PlainNumbers &) = delete;
-
-private:
-  locale_t plain_, former_;
+// How much of SI one of it is, and its powers of m, kg, s and rad.
+struct Unit {
+  double si = 1;
+  std::array<int, 4> of{};
 };
 
-ut_system *unit_system() {
-  static ut_system *const system = [] {
-    ut_set_error_message_handler(ut_ignore);
-    ut_system *read = ut_read_xml(nullptr);
-    if (read == nullptr) throw std::runtime_error("the data of UDUNITS-2 (udunits2.xml) cannot be read");
-    const Unit degree(ut_get_unit_by_name(read, "degree"));
-    ut_map_name_to_unit("deg", UT_ASCII, degree.get()); // usual, and unknown to UDUNITS
-    return read;
+const std::map<std::string, Unit> &units() {
+  static const std::map<std::string, Unit> all = [] {
+    const Unit metre{1, {1}}, gram{1e-3, {0, 1}}, second{1, {0, 0, 1}}, newton{1, {1, 1, -2}},
+        pascal{1, {-1, 1, -2}}, bar{1e5, {-1, 1, -2}}, joule{1, {2, 1, -2}}, radian{1, {0, 0, 0, 1}};
+    const auto times = [](double factor, Unit unit) {
+      unit.si *= factor;
+      return unit;
+    };
+    const Unit degree = times(pi / 180, radian), inch = times(0.0254, metre), hour = times(3600, second);
+    std::map<std::string, Unit> table{{"%", {0.01, {}}},
+                                      {"percent", {0.01, {}}},
+                                      {"min", times(60, second)},
+                                      {"h", hour},
+                                      {"hour", hour},
+                                      {"day", times(24, hour)},
+                                      {"t", times(1e6, gram)},
+                                      {"psi", times(6894.757293168361, pascal)},
+                                      {"in", inch},
+                                      {"inch", inch},
+                                      {"inches", inch},
+                                      {"ft", times(12, inch)},
+                                      {"Hz", {1, {0, 0, -1}}},
+                                      {"°", degree},
+                                      {"deg", degree},
+                                      {"degree", degree},
+                                      {"degrees", degree}};
+    const std::pair<const char *, double> prefixes[] = {
+        {"", 1},     {"p", 1e-12}, {"n", 1e-9}, {"u", 1e-6}, {"µ", 1e-6}, {"m", 1e-3}, {"c", 1e-2},
+        {"d", 1e-1}, {"h", 1e2},   {"k", 1e3},  {"M", 1e6},  {"G", 1e9},  {"T", 1e12}};
+    const std::pair<const char *, Unit> metric[] = {{"m", metre},  {"g", gram},    {"s", second},
+                                                    {"N", newton}, {"Pa", pascal}, {"bar", bar},
+                                                    {"J", joule},  {"rad", radian}};
+    for (const auto &[prefix, factor] : prefixes)
+      for (const auto &[name, unit] : metric)
+        table.emplace(std::string(prefix) + name, times(factor, unit));
+    return table;
   }();
-  return system;
+  return all;
 }
 
-bool known_name(const std::string &name) {
-  return Unit(ut_get_unit_by_name(unit_system(), name.c_str())) ||
-         Unit(ut_get_unit_by_symbol(unit_system(), name.c_str()));
-}
-
-// UDUNITS takes any number of prefixes, so that a slip such as "mmm" would be a micrometre: one is the limit.
-bool one_prefix_at_most(const std::string &name) {
-  if (known_name(name)) return true;
-  static constexpr std::string_view prefixes[] = {
-      "tera", "giga", "mega", "kilo", "hecto", "deca", "deci", "centi", "milli", "micro", "nano",
-      "pico", "T",    "G",    "M",    "k",     "h",    "da",   "d",     "c",     "m",     "u",
-      "µ",    "n",    "p",    "f",    "femto", "E",    "P",    "peta",  "exa",   "a"};
-  for (const std::string_view prefix : prefixes)
-    if (name.size() > prefix.size() && name.compare(0, prefix.size(), prefix) == 0 &&
-        known_name(name.substr(prefix.size())))
-      return true;
-  return false;
-}
-
-bool part_of_name(char c) {
-  return std::string_view("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_%'\"").find(c) !=
-             std::string_view::npos ||
-         (static_cast<unsigned char>(c) & 0x80) != 0; // beyond ASCII: micro sign, degree sign
-}
-
-// A unit is made of names, powers and the signs between them; digits stand only as powers, because "m 5"
-// would be five metres to UDUNITS.
-bool well_formed(const std::string &unit) {
-  std::string name;
-  char before = ' ';
-  for (std::size_t k = 0; k <= unit.size(); ++k) {
-    const char c = k < unit.size() ? unit[k] : ' ';
-    if (part_of_name(c)) {
-      if (before >= '0' && before <= '9') return false;
-      name += c;
-    } else {
-      if (!name.empty() && !one_prefix_at_most(name)) return false;
-      name.clear();
-      const bool digit = c >= '0' && c <= '9';
-      if (digit && !part_of_name(before) &&
-          std::string_view("^-+0123456789").find(before) == std::string_view::npos)
-        return false;
-      if (!digit && std::string_view(" */.^()-+").find(c) == std::string_view::npos) return false;
-    }
-    before = c;
+// One name with its power: "mm", "m3", "s^-1"; none where it is not known.
+std::optional<Unit> factor_of(std::string name) {
+  int power = 1;
+  if (name.size() > 1 && name.back() >= '0' && name.back() <= '9') {
+    power = name.back() - '0';
+    name.pop_back();
+    if (name.back() == '-') power = -power, name.pop_back();
+    if (!name.empty() && name.back() == '^') name.pop_back();
   }
-  return true;
+  const auto found = units().find(name);
+  if (found == units().end()) return std::nullopt;
+  Unit unit = found->second;
+  unit.si = std::pow(unit.si, power);
+  for (int &exponent : unit.of)
+    exponent *= power;
+  return unit;
 }
 
-Unit parse_unit(const std::string &unit) {
-  if (!well_formed(unit)) return nullptr;
-  return Unit(ut_parse(unit_system(), unit.c_str(), UT_UTF8));
+// Names with signs between them: "kg/m3", "kg m-3", "1/s"; none where one is not known.
+std::optional<Unit> unit_of(const std::string &text) {
+  Unit whole;
+  for (std::size_t at = text.compare(0, 2, "1/") == 0 ? 1 : 0; at < text.size();) {
+    const std::size_t begin = std::min(text.find_first_not_of("/*. ", at), text.size()),
+                      end = std::min(text.find_first_of("/*. ", begin), text.size());
+    const std::string sign = trimmed(text.substr(at, begin - at));
+    const std::optional<Unit> factor = factor_of(text.substr(begin, end - begin));
+    if (!factor || sign.size() > 1) return std::nullopt;
+    const bool divides = sign == "/";
+    whole.si = divides ? whole.si / factor->si : whole.si * factor->si;
+    for (std::size_t k = 0; k < whole.of.size(); ++k)
+      whole.of[k] += divides ? -factor->of[k] : factor->of[k];
+    at = end;
+  }
+  return whole;
 }
 
-// UDUNITS treats the radian as a plain number; its definition still names it.
-bool is_angle(const ut_unit *unit) {
-  std::array<char, 256> text{};
-  const int length = ut_format(unit, text.data(), text.size(), UT_ASCII | UT_DEFINITION);
-  return length > 0 && std::string_view(text.data()).find("rad") != std::string_view::npos;
-}
-
+// What a unit measures, in words, with an example and what is usual.
 struct Dimension {
-  const char *name, *example;
+  std::string si_unit, name, example;
+  std::vector<std::string> usual;
 };
 
 const Dimension &dimension(const std::string &si_unit) {
-  static const std::map<std::string, Dimension> dimensions = {{"1", {"a plain number", "0.5"}},
-                                                              {"m", {"a length", "1.25 mm"}},
-                                                              {"m2", {"an area", "4 mm2"}},
-                                                              {"m/s", {"a speed", "0.03 mm/ms"}},
-                                                              {"s", {"a time", "0.1 ms"}},
-                                                              {"Pa", {"a pressure", "8.9 MPa"}},
-                                                              {"kg/m3", {"a density", "2400 kg/m3"}},
-                                                              {"N", {"a force", "1.5 kN"}},
-                                                              {"N/m", {"a stiffness", "50 kN/m"}},
-                                                              {"rad", {"an angle", "30 degree"}},
-                                                              {"degree", {"an angle", "30 degree"}},
-                                                              {"J", {"an energy", "1 J"}}};
-  static const Dimension other = {"a quantity", ""};
-  const auto found = dimensions.find(si_unit);
-  return found == dimensions.end() ? other : found->second;
-}
-
-// The usual unit of a dimension that is written alike, capitals aside: "GPa" of "Gpa"; "" where none is.
-std::string nearest_unit(const std::string &unit, const std::string &si_unit) {
-  static const std::map<std::string, std::vector<std::string>> usual = {
-      {"1", {"%", "percent"}},
-      {"m", {"mm", "m", "cm", "km", "um", "nm", "inch"}},
-      {"m2", {"mm2", "cm2", "m2"}},
-      {"m/s", {"mm/s", "m/s", "mm/ms", "um/s", "mm/min", "km/h"}},
-      {"s", {"ms", "s", "us", "ns", "min", "h"}},
-      {"Pa", {"MPa", "GPa", "kPa", "Pa", "TPa", "N/mm2", "kN/m2", "bar", "psi"}},
-      {"kg/m3", {"kg/m3", "g/cm3", "t/m3"}},
-      {"N", {"kN", "N", "MN"}},
-      {"N/m", {"N/m", "kN/m", "MN/m", "N/mm", "kN/mm"}},
-      {"kg", {"kg", "g", "t"}},
-      {"J/m2", {"J/m2", "N/m", "N/mm"}},
-      {"rad", {"degree", "rad"}},
-      {"degree", {"degree", "rad"}}};
-  const auto found = usual.find(si_unit);
-  return found == usual.end() ? "" : nearest_word(unit, found->second);
-}
-
-// In words, for messages: "a pressure (Pa)".
-std::string name_of_dimension(const std::string &si_unit) {
-  return std::string(dimension(si_unit).name) + (si_unit == "1" ? "" : " (" + si_unit + ")");
+  static const std::vector<Dimension> known{
+      {"1", "a plain number", "0.5", {"%", "percent"}},
+      {"m", "a length", "1.25 mm", {"mm", "m", "cm", "km", "um", "nm", "inch"}},
+      {"m/s", "a speed", "0.03 mm/ms", {"mm/s", "m/s", "mm/ms", "um/s", "mm/min", "km/h"}},
+      {"s", "a time", "0.1 ms", {"ms", "s", "us", "ns", "min", "h"}},
+      {"Pa", "a pressure", "8.9 MPa", {"MPa", "GPa", "kPa", "Pa", "TPa", "N/mm2", "kN/m2", "bar", "psi"}},
+      {"kg/m3", "a density", "2400 kg/m3", {"kg/m3", "g/cm3", "t/m3"}},
+      {"N", "a force", "1.5 kN", {"kN", "N", "MN"}},
+      {"N/m", "a stiffness", "50 kN/m", {"N/m", "kN/m", "MN/m", "N/mm", "kN/mm"}},
+      {"kg", "a mass", "2 kg", {"kg", "g", "t"}},
+      {"J/m2", "a fracture energy", "50 J/m2", {"J/m2", "N/m", "N/mm"}},
+      {"rad", "an angle", "30 degree", {"degree", "rad"}},
+      {"degree", "an angle", "30 degree", {"degree", "rad"}}};
+  static const Dimension other{"", "a quantity", "", {}};
+  for (const Dimension &one : known)
+    if (one.si_unit == si_unit) return one;
+  return other;
 }
 
 } // namespace
@@ -183,27 +144,33 @@ NumberWithUnit split_number(const std::string &text) {
 
 double to_si(const NumberWithUnit &number, const std::string &si_unit) {
   if (number.unit.empty()) return number.value;
-  const PlainNumbers guard;
-  const Unit wanted(ut_parse(unit_system(), si_unit.c_str(), UT_UTF8)), given = parse_unit(number.unit);
+  const std::optional<Unit> given = unit_of(number.unit), wanted = si_unit == "1" ? Unit() : unit_of(si_unit);
   if (!wanted) throw std::logic_error("unknown unit in the table of parameters: " + si_unit);
+  const Dimension &meant = dimension(si_unit);
   if (!given) {
-    const std::string near = nearest_unit(number.unit, si_unit);
+    const std::string near = nearest_word(number.unit, meant.usual);
     throw ValueError("has the unit \"" + number.unit + "\", which is not known" +
                      (near.empty() ? "" : ". Did you mean \"" + near + "\"?"));
   }
-  if (!ut_are_convertible(given.get(), wanted.get()) || is_angle(given.get()) != is_angle(wanted.get())) {
-    const std::string example = dimension(si_unit).example;
-    throw ValueError("has the unit \"" + number.unit + "\", which is not that of " +
-                     name_of_dimension(si_unit) + (example.empty() ? "" : ", e.g. " + example));
-  }
-  const Converter converter(ut_get_converter(given.get(), wanted.get()));
-  const double converted = cv_convert_double(converter.get(), number.value);
+  if (given->of != wanted->of)
+    throw ValueError("has the unit \"" + number.unit + "\", which is not that of " + meant.name +
+                     (si_unit == "1" ? "" : " (" + si_unit + ")") +
+                     (meant.example.empty() ? "" : ", e.g. " + meant.example));
+  const double converted = number.value * (given->si / wanted->si);
   if (!std::isfinite(converted)) throw ValueError("is not a finite number");
   return converted;
 }
 
 double to_si(const std::string &text, const std::string &si_unit) {
   return to_si(split_number(text), si_unit);
+}
+
+std::string in_usual_unit(double value, const std::string &si_unit, const std::string &between) {
+  const bool pressure = si_unit == "Pa", length = si_unit == "m";
+  const std::string unit = pressure ? "MPa" : length ? "mm" : si_unit;
+  std::array<char, 40> number{};
+  std::snprintf(number.data(), number.size(), "%.12g", value * (pressure ? 1e-6 : length ? 1e3 : 1));
+  return number.data() + (unit.empty() ? "" : between + unit);
 }
 
 } // namespace platen::apps

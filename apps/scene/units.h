@@ -26,10 +26,15 @@ struct NumberWithUnit {
 // refused).
 NumberWithUnit split_number(const std::string &text);
 
-// Converts to `si_unit`, which is a unit of UDUNITS-2 ("m", "Pa", "kg/m3", "rad", "1" for a plain number).
-// Throws ValueError for an unknown unit or one of another dimension. Angles and plain numbers are told apart,
-// although UDUNITS-2 converts them into each other; a percentage is a plain number.
+// Converts to `si_unit` ("m", "Pa", "kg/m3", "rad", "1" for a plain number). Units are names of a table with
+// a metric prefix, their powers ("mm2", "s^-1"), products (blank, "*", ".") and quotients ("/"). Throws
+// ValueError for an unknown unit or one of another dimension. An angle is no plain number; a percentage is
+// one.
 double to_si(const NumberWithUnit &number, const std::string &si_unit);
 double to_si(const std::string &text, const std::string &si_unit);
+
+// "1.4 mm" of 0.0014 m: a number of an SI unit as engineers name it, stresses in MPa, lengths in mm, others
+// as they are; without the last bit that a conversion may leave. `between` parts number and unit.
+std::string in_usual_unit(double value, const std::string &si_unit, const std::string &between = " ");
 
 } // namespace platen::apps

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/scene/parameters.h"
 #include "apps/scene/surfaces.h"
 
 namespace platen::apps {
@@ -14,14 +13,6 @@ constexpr double most_gap = 1;
 // A stiffness over that of bonds, or of grains, within which a time step still follows both.
 const Range multiples = between(1e-6, 1e6);
 constexpr double largest_whole_number = 9007199254740992.0; // 2^53: beyond it doubles skip whole numbers
-
-void check(double value, const Allowed &allowed) {
-  if (!allowed.holds(value)) throw ValueError("is out of range");
-}
-
-Allowed stiffness_range() {
-  return physical("", "N/m", above(0));
-}
 
 // What stands between commas, each piece read by read(piece); "" is no piece.
 template <class Value, class Read>
@@ -44,13 +35,8 @@ std::vector<Value> read_items(const std::string &text, const Read &read) {
 
 } // namespace
 
-double read_quantity(const std::string &text, const std::string &si_unit, const Allowed &allowed) {
-  if (text.empty()) return not_given;
-  const NumberWithUnit number = split_number(text);
-  const double value = to_si(number, si_unit);
-  check(value, allowed);
-  if (number.unit.empty()) require_meant(value, si_unit, allowed);
-  return value;
+double read_quantity(const std::string &text, const std::string &si_unit, const Range &range) {
+  return Quantity("", si_unit, range).read(text);
 }
 
 long read_integer(const std::string &text, const Range &range) {
@@ -58,7 +44,7 @@ long read_integer(const std::string &text, const Range &range) {
   if (!number.unit.empty())
     throw ValueError("is not a whole number: it is followed by \"" + number.unit + "\"");
   if (number.value != std::floor(number.value)) throw ValueError("is not a whole number");
-  check(number.value, range);
+  if (!range.holds(number.value)) throw ValueError("is out of range");
   if (std::abs(number.value) > largest_whole_number) throw ValueError("is too large for a whole number");
   return static_cast<long>(number.value);
 }
@@ -73,36 +59,34 @@ Interval read_interval(const std::string &text) {
   const NumberWithUnit number = split_number(text);
   if (number.value < 0) throw ValueError("is negative");
   const bool time = !number.unit.empty();
-  if (time) check(to_si(number, "s"), physical("", "s", at_least(0)));
-  const double value = time ? to_si(number, "s") : static_cast<double>(read_integer(text, at_least(0)));
+  const double value =
+      time ? read_quantity(text, "s", at_least(0)) : static_cast<double>(read_integer(text, at_least(0)));
   if (value == 0) return {};
   return {time ? Interval::Kind::time : Interval::Kind::steps, value};
 }
 
 Gap read_gap(const std::string &text) {
   const NumberWithUnit number = split_number(text);
-  const Gap gap{number.unit == "R_min", number.unit == "R_min" ? number.value : to_si(number, "m")};
-  if (gap.value < 0) throw ValueError("is negative");
-  if (gap.relative && gap.value > most_gap)
+  const bool relative = number.unit == "R_min";
+  if (number.value < 0) throw ValueError("is negative");
+  if (relative && number.value > most_gap)
     throw ValueError("reaches past the neighbours: spheres as far apart have others between them");
-  if (!gap.relative) check(gap.value, physical("", "m", any_number()));
-  return gap;
+  if (relative) return {true, number.value};
+  const double length = to_si(number, "m");
+  if (!Quantity("", "m", any_number()).holds(length)) throw ValueError("is out of range");
+  return {false, length};
 }
 
 Stiffness read_stiffness(const std::string &text, bool bulk_allowed) {
   const NumberWithUnit number = split_number(text);
-  Stiffness stiffness{Stiffness::Kind::of_bond, number.value};
-  if (bulk_allowed && number.unit == "bulk")
-    stiffness.kind = Stiffness::Kind::of_bulk;
-  else if (!number.unit.empty())
-    stiffness = {Stiffness::Kind::absolute, to_si(number, "N/m")};
-  check(stiffness.value, stiffness.kind == Stiffness::Kind::absolute ? stiffness_range() : multiples);
-  return stiffness;
+  const bool bulk = bulk_allowed && number.unit == "bulk";
+  if (!bulk && !number.unit.empty()) return {Stiffness::Kind::absolute, read_quantity(text, "N/m", above(0))};
+  if (!multiples.holds(number.value)) throw ValueError("is out of range");
+  return {bulk ? Stiffness::Kind::of_bulk : Stiffness::Kind::of_bond, number.value};
 }
 
-std::vector<double> read_list(const std::string &text, const std::string &si_unit, const Allowed &allowed) {
-  return read_items<double>(text,
-                            [&](const std::string &item) { return read_quantity(item, si_unit, allowed); });
+std::vector<double> read_list(const std::string &text, const Quantity &each) {
+  return read_items<double>(text, [&](const std::string &item) { return each.read(item); });
 }
 
 std::vector<Gap> read_gaps(const std::string &text) {
@@ -116,8 +100,7 @@ std::vector<DomainSize> read_domains(const std::string &text) {
     if (sign == std::string::npos) throw ValueError("is no pair: \"height x radius\" is");
     const std::string height = item.substr(0, sign), radius = item.substr(sign + between_both.size());
     if (height.empty() || radius.empty()) throw ValueError("is half a pair");
-    const Allowed length = physical("", "m", above(0));
-    return {read_quantity(height, "m", length), read_quantity(radius, "m", length)};
+    return {read_quantity(height, "m", above(0)), read_quantity(radius, "m", above(0))};
   });
 }
 
@@ -165,7 +148,7 @@ std::vector<std::string> read_assignments(const std::string &text) {
   });
 }
 
-Expectation read_expectation(const std::string &text, const std::string &si_unit, const Allowed &allowed) {
+Expectation read_expectation(const std::string &text, const std::string &si_unit, const Quantity &each) {
   Expectation expectation;
   expectation.text = text;
   if (text.empty()) return expectation;
@@ -177,7 +160,7 @@ Expectation read_expectation(const std::string &text, const std::string &si_unit
     if (bound.empty()) return;
     const NumberWithUnit number = split_number(bound);
     to = to_si(number, si_unit);
-    if (number.unit.empty()) require_meant(to, si_unit, allowed);
+    each.require_meant(number);
     if (expectation.unit.empty() && !number.unit.empty())
       expectation.unit = number.unit, expectation.of_unit = to_si({1, number.unit}, si_unit);
   };
@@ -198,10 +181,7 @@ Expectation read_expected_words(const std::string &text, const std::vector<std::
 std::size_t read_word(const std::string &text, const std::vector<std::string> &words) {
   const std::string word = tidy(text);
   const auto position = std::find(words.begin(), words.end(), word);
-  if (position == words.end()) {
-    const std::string nearest = nearest_word(word, words);
-    throw ValueError("is not known." + (nearest.empty() ? "" : " Did you mean \"" + nearest + "\"?"));
-  }
+  if (position == words.end()) throw ValueError("is not known." + did_you_mean(word, words));
   return static_cast<std::size_t>(position - words.begin());
 }
 
@@ -231,13 +211,6 @@ std::string text_of(const Stiffness &stiffness) {
 std::string text_of(const StudySurface &surface) {
   return std::isnan(surface.friction) ? platen::apps::surface(surface.kind).word
                                       : shortest_text(surface.friction);
-}
-
-std::string joined(const std::vector<std::string> &words) {
-  std::string text;
-  for (const std::string &word : words)
-    text += (text.empty() ? "" : ", ") + word;
-  return text;
 }
 
 } // namespace platen::apps

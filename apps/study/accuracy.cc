@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "apps/output/csv_writer.h"
-#include "apps/scene/usual_unit.h"
+#include "apps/scene/units.h"
 #include "apps/study/tables.h"
 
 namespace platen::apps {

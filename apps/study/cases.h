@@ -8,7 +8,6 @@
 
 #include "apps/scene/scene.h"
 #include "apps/scene/units.h"
-#include "apps/scene/usual_unit.h"
 
 namespace platen::apps {
 

@@ -242,7 +242,8 @@ TEST_F(SceneFiles, every_entry_tells_its_meaning) {
   for (const apps::Program &of : programs()) {
     const Scene scene = default_scene(of);
     std::ostringstream text;
-    write_prm(scene.parameters->entries(), true, text);
+    const auto &entries = scene.parameters->entries();
+    write_prm({entries.begin(), entries.end()}, true, text);
     std::set<std::string> paths;
     for (const Entry &entry : scene.parameters->entries()) {
       EXPECT_GT(entry.documentation.size(), 10u) << entry.path;

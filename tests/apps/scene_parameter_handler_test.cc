@@ -53,7 +53,8 @@ std::vector<std::string> values_by_us(const std::string &text) {
   Scene scene;
   Parameters parameters;
   declare_scene(parameters, scene);
-  read_prm_text(text, "text.prm", parameters);
+  parameters.apply(prm_assignments(text, "text.prm"));
+  parameters.throw_faults();
   std::vector<std::string> values;
   for (const Entry &entry : parameters.entries())
     values.push_back(entry.path + " = " + entry.text);
@@ -79,7 +80,9 @@ TEST(ParameterHandler, reads_what_we_write) {
   const std::string text = scene_text(default_scene(program("compress")), ".");
   EXPECT_EQ(values_by_deal_ii(text), values_by_us(text));
   std::ostringstream documented;
-  write_prm(default_scene(program("compress")).parameters->entries(), true, documented);
+  const Scene scene = default_scene(program("compress"));
+  const auto &entries = scene.parameters->entries();
+  write_prm({entries.begin(), entries.end()}, true, documented);
   EXPECT_EQ(values_by_deal_ii(documented.str()), values_by_us(text));
 }
 
@@ -95,7 +98,8 @@ TEST(ParameterHandler, writes_json_that_we_read) {
     Scene scene;
     Parameters parameters;
     program("bonds").declare(parameters, scene);
-    read_json_text(text.str(), "text.json", parameters);
+    parameters.apply(json_assignments(text.str(), "text.json"));
+    parameters.throw_faults();
     EXPECT_EQ(scene.own<PairTest>().moduli, (std::vector<double>{1e9, 2e9})) << text.str();
   }
 }

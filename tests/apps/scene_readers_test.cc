@@ -44,7 +44,7 @@ std::vector<std::string> what_it_does_not_read(const App &app) {
   const Scene scene = read_scene(app.scene, app.entries, program(app.program));
   std::vector<std::string> all = app.entries;
   for (const Entry &entry : scene.parameters->entries()) {
-    if (program(app.program).reads_entry(entry.path) || (entry.alike == Entry::Alike::further)) continue;
+    if (program(app.program).reads_entry(entry.path) || entry.number > 1) continue;
     for (const std::string &value : other_values(entry)) {
       if (value == entry.text) continue;
       all.push_back(entry.path + " = " + value);

@@ -55,6 +55,16 @@ TEST(Surfaces, every_word_sets_its_entries_says_its_source_and_can_be_written_ba
   }
 }
 
+// The thickness that a plate has by default says nothing of a mesh.
+TEST(Surfaces, a_pad_of_meshes_may_be_as_thick_as_they_are) {
+  std::vector<std::string> entries = needs_of(SurfaceKind::rubber_sheet);
+  entries.insert(entries.end(), {"Platens/Kind = deformable", "Platens/Pad thickness = 1 m",
+                                 "Platens/Top/Mesh file = " + good});
+  EXPECT_THROW(scene_with(entries), InputError);
+  entries.push_back("Platens/Bottom/Mesh file = " + good);
+  EXPECT_NO_THROW(scene_with(entries));
+}
+
 TEST(Surfaces, the_figures_are_those_of_their_sources) {
   const auto friction = [](const char *word) {
     const Scene scene = scene_with({std::string("Platens/Surface = ") + word});

@@ -37,6 +37,10 @@ TEST(SceneUnits, quantities_become_si) {
                                     {"2.4e-6 kg/mm3", "kg/m3", 2400},
                                     {"2.4 g/cm3", "kg/m3", 2400},
                                     {"2400 kg m-3", "kg/m3", 2400},
+                                    {"1e-3 kJ/m2", "J/m2", 1},
+                                    {"5 %", "1", 0.05},
+                                    {"0.1 t/m3", "kg/m3", 100},
+
                                     {"10 min", "s", 600},
                                     {"50 N/m", "N/m", 50},
                                     {"4 kN/mm", "N/m", 4e6},
@@ -106,7 +110,6 @@ TEST(SceneUnits, numbers_do_not_depend_on_the_locale) {
   for (const char *name : {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8"})
     if (setlocale(LC_NUMERIC, name) != nullptr) break;
   EXPECT_EQ(to_si("1.25 mm", "m"), 0.00125);
-  EXPECT_DOUBLE_EQ(to_si("2 inches", "m"), 0.0508); // the data of UDUNITS hold 2.54 as a text
   EXPECT_EQ(shortest_text(1234567.5), "1234567.5");
   setlocale(LC_NUMERIC, c_before.c_str());
   std::locale::global(before);
@@ -144,19 +147,23 @@ TEST(SceneValues, stiffnesses_name_what_they_are_multiples_of) {
 }
 
 TEST(SceneValues, expectations_may_be_open_on_one_side) {
-  EXPECT_DOUBLE_EQ(read_expectation("35 MPa ... 50 MPa", "Pa").low, 35e6);
-  EXPECT_DOUBLE_EQ(read_expectation("35 MPa ... 50 MPa", "Pa").high, 50e6);
-  EXPECT_EQ(read_expectation("... 0.1", "1").low, -std::numeric_limits<double>::infinity());
-  EXPECT_EQ(read_expectation("0.9 ...", "1").high, std::numeric_limits<double>::infinity());
-  EXPECT_THROW(read_expectation("...", "1"), ValueError);
-  EXPECT_DOUBLE_EQ(read_expectation("16 ... 37", "degree").high, 37);
+  const auto read = [](const char *text, const char *unit) {
+    return read_expectation(text, unit, Quantity("", unit, any_number()));
+  };
+  EXPECT_DOUBLE_EQ(read("35 MPa ... 50 MPa", "Pa").low, 35e6);
+  EXPECT_DOUBLE_EQ(read("35 MPa ... 50 MPa", "Pa").high, 50e6);
+  EXPECT_EQ(read("... 0.1", "1").low, -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(read("0.9 ...", "1").high, std::numeric_limits<double>::infinity());
+  EXPECT_THROW(read("...", "1"), ValueError);
+  EXPECT_DOUBLE_EQ(read("16 ... 37", "degree").high, 37);
 }
 
 TEST(SceneValues, lists_are_parted_by_commas) {
-  EXPECT_EQ(read_list("1 GPa, 2 GPa,3e9", "Pa", above(0)), (std::vector<double>{1e9, 2e9, 3e9}));
-  EXPECT_TRUE(read_list("", "Pa", above(0)).empty());
-  EXPECT_THROW(read_list("1 GPa,, 2 GPa", "Pa", above(0)), ValueError);
-  EXPECT_THROW(read_list("1 GPa, -2 GPa", "Pa", above(0)), ValueError);
+  const Quantity pascals("", "Pa", above(0));
+  EXPECT_EQ(read_list("1 GPa, 2 GPa,3e9", pascals), (std::vector<double>{1e9, 2e9, 3e9}));
+  EXPECT_TRUE(read_list("", pascals).empty());
+  EXPECT_THROW(read_list("1 GPa,, 2 GPa", pascals), ValueError);
+  EXPECT_THROW(read_list("1 GPa, -2 GPa", pascals), ValueError);
 }
 
 } // namespace

@@ -290,7 +290,7 @@ TEST_F(PlannedStudy, refuses_a_number_that_is_not_in_it) {
   EXPECT_FALSE(fs::exists(folder_ / "a"));
   expect(0, "a", {"--plan"});
   expect_refused("--run = 5 is not in the plan. Allowed: 1 ... 4.", "a", {"--run", "5"});
-  expect_refused("--run = 0 is no number of a run", "a", {"--run", "0"});
+  expect_refused("--run = 0 is no whole number. Allowed: 1 ...", "a", {"--run", "0"});
   EXPECT_TRUE(fs::is_empty(folder_ / "a/runs"));
 }
 

@@ -7,6 +7,7 @@
 
 #include "coupling/boundary.h"
 #include "coupling/faults.h"
+#include "fem/grids.h"
 
 namespace platen::coupling {
 namespace {
@@ -138,6 +139,7 @@ TEST(Faults, a_machine_drives_what_it_can) {
 TEST(Faults, platens_that_yield_or_turn_move_with_inertia) {
   const auto yields = [](Settings &s) { s.platens.elastic.emplace(); };
   const auto spring = [](Settings &s) { s.platens.machine.stiffness = 1e8; };
+  const fem::Grid mesh = fem::make_grid(fem::BoxPlate{{0, 0, 0}, {1, 1, 1}});
   expect_faults(
       {{"", "", yields},
        {"platens.elastic", "velocity verlet",
@@ -147,6 +149,13 @@ TEST(Faults, platens_that_yield_or_turn_move_with_inertia) {
        {"platens.elastic.pad_thickness", "leaves nothing",
         [&](Settings &s) { yields(s), s.platens.elastic->pad_thickness = 0.01; }},
        {"", "", [&](Settings &s) { yields(s), s.platens.elastic->pad_thickness = 0.0099; }},
+       {"", "", // meshes have no thickness of the settings
+        [&](Settings &s) {
+          yields(s), s.platens.elastic->pad_thickness = 0.01;
+          s.platens.top.grid = s.platens.bottom.grid = mesh;
+        }},
+       {"platens.elastic.pad_thickness", "leaves nothing",
+        [&](Settings &s) { yields(s), s.platens.elastic->pad_thickness = 0.01, s.platens.top.grid = mesh; }},
        {"platens.elastic.layers", "another way to say",
         [&](Settings &s) {
           yields(s), s.platens.elastic->pad_thickness = 1e-3, s.platens.elastic->layers.resize(1);

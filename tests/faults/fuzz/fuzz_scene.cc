@@ -8,16 +8,8 @@
 #include "apps/programs.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/scene.h"
-#include "apps/scene/scene_files.h"
 
 using namespace platen::apps;
-
-namespace platen::apps {
-// Scenes are written by deal.II, which is not linked here; nothing that is read calls it.
-void write_prm(const std::vector<Entry> &, bool, std::ostream &) {
-  std::abort();
-}
-} // namespace platen::apps
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
   if (size == 0) return 0;

@@ -2,7 +2,6 @@
 #include <cstdint>
 
 #include "apps/scene/declare.h"
-#include "apps/scene/scene_files.h"
 
 using namespace platen::apps;
 
@@ -21,12 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   static const AllEntries declared;
   const std::string text(reinterpret_cast<const char *>(data), size);
   Parameters parameters = declared.parameters;
-  try {
-    if (!text.empty() && text.front() == '{')
-      read_json_text(text, "fuzz.json", parameters);
-    else
-      read_prm_text(text, "fuzz.prm", parameters);
-  } catch (const InputError &) {
-  }
+  const bool json = !text.empty() && text.front() == '{';
+  parameters.apply(json ? json_assignments(text, "fuzz.json") : prm_assignments(text, "fuzz.prm"));
   return 0;
 }
