@@ -1,17 +1,17 @@
 #include "apps/run/compression.h"
-#include "apps/output/crack_discs.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
-#include <utility>
 
+#include "apps/output/checkpoint_folder.h"
+#include "apps/output/progress.h"
 #include "apps/output/stop_signal.h"
 #include "apps/run/compression_run.h"
 #include "apps/run/controls.h"
 #include "apps/run/estimate.h"
-#include "apps/run/ranks.h"
+#include "apps/run/run_state.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/expect.h"
 #include "apps/scene/parameters.h"
@@ -27,36 +27,11 @@ RunCosts CompressionRun::costs() const {
   c.setup_seconds = setup_seconds_;
   c.steps_here = test_->steps() - first_step_;
   c.step_seconds = seconds_since(loop_start_);
-  c.ended_by = failed_ ? "failure" : signal_ != 0 ? "signal" : ended_by();
-  if (ending_ && c.ended_by.empty()) c.ended_by = "script";
+  const std::string by = ended_by();
+  c.ended_by = failed_ ? "failure" : now_.signal != 0 ? "signal" : ending_ && by.empty() ? "script" : by;
   if (!c.ended_by.empty())
-    c.ended_by = with_misses(c.ended_by, *test_, results_, stages_over(*test_, !ended_by().empty()));
+    c.ended_by = with_misses(c.ended_by, *test_, results_, stages_over(*test_, !by.empty()));
   return c;
-}
-
-// What stages asked and did not reach, of those that are over after so many.
-void CompressionRun::tell_misses(std::size_t from) const {
-  for (std::size_t k = from; k < stages_over(*test_, !ended_by().empty()); ++k) {
-    const std::string words = words_of_misses(*test_, k);
-    if (words.empty()) continue;
-    if (failed_in(*test_, results_, k))
-      log_.info("{} (the specimen failed in it)", words);
-    else
-      log_.warning("{}", words);
-  }
-}
-
-void CompressionRun::tell_path() const {
-  const PressurePath path = pressure_path(*test_, results_);
-  if (path.deviation > most_off_path)
-    log_.warning(
-        "the pressure was up to {:.1f} % off its path, {:.0f} % at most: a lower Loading/Axial rate helps",
-        100 * path.deviation, 100 * most_off_path);
-  if (!std::isnan(path.ended_at_strain))
-    log_.warning(
-        "the pressure had come down to nothing at the strain of {:.5f}: from there on the test goes along "
-        "no path, without a pressure",
-        path.ended_at_strain);
 }
 
 // As it was called, but for an entry that is to be another.
@@ -64,63 +39,97 @@ std::string CompressionRun::resuming_command(const std::string &but) const {
   return shell_command(app_of(*test_), command_, but) + " --resume";
 }
 
-void CompressionRun::tell_cut() {
-  log_.info("{}", words_of_cut(*ranks_));
-  if (const std::string idle = words_of_idle_ranks(*ranks_); !idle.empty()) log_.warning("{}", idle);
+ProgressSample CompressionRun::where() const {
+  ProgressSample p;
+  p.fraction = test_->program().progress();
+  p.step = static_cast<std::uint64_t>(test_->steps());
+  p.time = test_->time();
+  p.strain = test_->closure_strain(results_.axis());
+  p.stress = test_->platens_along(results_.axis()).stress(*test_);
+  p.broken_bonds = test_->model.broken_tension + test_->model.broken_shear;
+  return p;
+}
+
+// Steps that can be made before an observer is due.
+long CompressionRun::steps_unobserved() const {
+  constexpr double most = 16; // between two checks of signals and progress
+  double steps = most;
+  for (const Observer *observer : observers_)
+    steps = std::min(steps, observer->steps_until_due());
+  return static_cast<long>(std::max(steps, 1.0));
 }
 
 // Signals and clocks: what one rank is asked, and what the first one's clock says, holds for all.
 void CompressionRun::look_around() {
-  signal_ = stop_requested();
-  const bool by_clock = scene_.checkpoint.every.kind == Interval::Kind::time && this_rank().is_silent();
-  checkpoint_asked_ = take_checkpoint_request() || (!by_clock && checkpoint_due());
+  now_.ends = finished();
+  now_.signal = stop_requested();
+  const bool by_another_clock = checkpoints_->are_by_clock() && this_rank().is_silent();
+  now_.checkpoint_asked = take_checkpoint_request() || (!by_another_clock && checkpoints_->is_due());
   if (ranks_ == nullptr) return;
-  signal_ = static_cast<int>(ranks_->largest(signal_));
-  checkpoint_asked_ = ranks_->largest(checkpoint_asked_) > 0;
+  now_.signal = static_cast<int>(ranks_->largest(now_.signal));
+  now_.checkpoint_asked = ranks_->largest(now_.checkpoint_asked) > 0;
 }
 
-bool CompressionRun::pass() {
-  const std::size_t ended = test_->program().stages_ended();
-  test_->advance(steps_unobserved());
-  tell_misses(ended);
-  if (std::exchange(tells_cut_, false)) tell_cut();
-  look_around();
-  const bool row = due(scene_.output.every, automatic_rows);
-  const bool frame = fields_ && due(scene_.output.fields_every, automatic_frames);
-  if (frame || signal_ != 0 || finished())
+void CompressionRun::observe() {
+  Gathered needed = now_.ends || now_.signal != 0 ? Gathered::everything : Gathered::nothing;
+  for (const Observer *observer : observers_)
+    needed = std::max(needed, observer->needs());
+  if (needed == Gathered::everything)
     test_->gather();
-  else if (row)
+  else if (needed == Gathered::motion)
     test_->gather_motion();
   else
     test_->settle();
-  if (!test_->model.cracks.empty()) write_cracks();
-  if (row) sample();
-  if (finished()) test_->gather(); // what a row shows may end the test
-  // The last frame too before its checkpoint: what contacts bear is known after a step, not after a resume.
-  if (fields_ && (finished() || frame)) {
-    dem::StageClock::Lap lap(test_->model.clock, dem::Stage::output);
-    fields_->write(*test_, results_.moves_with(*test_));
+  for (Observer *observer : observers_) {
+    observer->observe(now_);
+    if (now_.ends || !finished()) continue;
+    now_.ends = true; // by what a row shows
+    test_->gather();
   }
-  // The last state too: a test that has not shown its peak is led on from there.
-  if (signal_ != 0 || (finished() && keeps_checkpoints()) || checkpoint_asked_) {
-    dem::StageClock::Lap lap(test_->model.clock, dem::Stage::output);
-    checkpoint();
-  }
-  return signal_ == 0;
 }
 
-void CompressionRun::loop() {
-  Progress progress(log_);
-  while (!finished() && pass())
-    if (progress.due()) progress.update(where());
-  progress.finish(where());
+bool CompressionRun::pass() {
+  test_->advance(steps_unobserved());
+  look_around();
+  observe();
+  return now_.signal == 0;
 }
 
 void CompressionRun::begin() {
   log_.info("{}", description());
-  open_files();
+  FileMarks marks;
+  if (resumes_)
+    marks = resume();
+  else
+    record_->begin(as_packed_);
+  if (scene_.output.fields) { // written in parallel: a run on one thread uses one core
+    frames_.emplace(scene_, *test_, results_, paths_.folder, output_.threads() > 1, expected_steps_);
+    if (resumes_)
+      frames_->resume(marks);
+    else
+      frames_->write();
+  }
+  messages_.emplace(scene_, *test_, results_, log_, ranks_);
+  checkpoints_.emplace(scene_, *test_, results_, paths_, [this] { return marks_of_files(); });
+  observers_ = {&*messages_, &*record_, &*checkpoints_};
+  if (frames_) observers_.insert(observers_.end() - 1, &*frames_); // the last frame too before its checkpoint
   loop_start_ = Clock::now();
-  tells_cut_ = ranks_ != nullptr;
+}
+
+FileMarks CompressionRun::resume() {
+  const FoundCheckpoint found = newest_whole_checkpoint(paths_.checkpoints());
+  for (const std::string &remark : found.remarks)
+    log_.warning("{}", remark);
+  const CheckpointReader checkpoint(found.path);
+  const FileMarks marks = load_state(checkpoint, *test_, results_);
+  if (results_.samples().empty()) checkpoint.fail("\"results/samples\" has no row, one at least is needed");
+  if (marks.target_strain != scene_.loading.target_strain) test_->go_on();
+  output_.lead_on();
+  record_->resume(marks);
+  earlier_seconds_ = marks.wall_seconds;
+  first_step_ = test_->steps();
+  log_.info("resumed at step {}, time {:.6g} s", test_->steps(), test_->time());
+  return marks;
 }
 
 void CompressionRun::give_up() {
@@ -130,19 +139,21 @@ void CompressionRun::give_up() {
 }
 
 int CompressionRun::run() {
-  if (!counted_.empty()) {
-    if (!this_rank().is_silent()) fmt::print("{}\n{}", title_of(scene_), counted_);
-    return status_done;
-  }
   if (command_.dry_run) {
     if (this_rank().is_silent()) return status_done;
-    fmt::print("{}{}", description(),
-               scene_.parameters->with_entries(cost_estimate(*test_, expected_steps_)));
+    if (!counted_.empty())
+      fmt::print("{}\n{}", title_of(scene_), counted_);
+    else
+      fmt::print("{}{}", description(),
+                 scene_.parameters->with_entries(cost_estimate(*test_, expected_steps_)));
     return status_done;
   }
   try {
     begin();
-    loop();
+    Progress progress(log_);
+    while (!finished() && pass())
+      if (progress.due()) progress.update(where());
+    progress.finish(where());
   } catch (const coupling::NumericsStopped &e) {
     give_up();
     std::error_code ignored;
@@ -154,62 +165,43 @@ int CompressionRun::run() {
   return end();
 }
 
-void CompressionRun::finish_files() {
-  if (test_->model.bonds) write_bond_stress();
-  if (scene_.model.crack_log) write_events();
-  if (!fields_) return;
-  fields_->write(*test_, results_.moves_with(*test_));
-  fields_->finish();
-  if (!cracks_) return;
-  cracks_->sync();
-  write_crack_discs(paths_.cracks(), test_->time(), paths_.cracks_vtu());
-}
-
-// Of what the test ended with.
-void CompressionRun::tell_doubts(const Json &summary) {
-  if (ended_by() == "shortened too far")
-    log_.warning(
-        "the specimen is shortened by {:.0f} % of its length: the test ends, for what is between the "
-        "platens is no specimen of its size any more; a smaller Loading/Target strain ends before",
-        100 * std::abs(test_->closure_strain(results_.axis())));
-  tell_path();
-  tell_misses(0);
-  if (const Json &signs = summary["signs_of_haste"]; !signs.empty())
-    log_.warning("too fast to be quasi-static, a lower Loading/Axial rate helps: {}",
-                 fmt::join(signs.get<std::vector<std::string>>(), "; "));
-  constexpr double most_unbalanced = 0.01; // of the work
-  if (const double share = number_in(summary, "platen_unbalanced_work_relative"); share > most_unbalanced)
-    log_.warning(
-        "platens without inertia are {:.1f} % of the work behind their loads (summary.json, "
-        "platen_unbalanced_work_relative), which no more than {:.0f} % should be: "
-        "Platens/Motion = explicit, or fewer Platens/Steps per solve",
-        100 * share, 100 * most_unbalanced);
-}
-
 int CompressionRun::end() {
   ending_ = true;
-  results_.finish(*test_, event_window());
-  finish_files();
-  Json ended = summary(signal_ != 0 ? "stopped" : "done");
-  if (signal_ == 0 && finished()) ended["expectations"] = check_expectations(scene_, ended);
+  const double crossing = test_->shape().height / test_->facts().wave_transit; // m/s
+  results_.finish(*test_, dem::event_window(dem::mean_radius(test_->model.particles), crossing,
+                                            scene_.output.event_reach, scene_.output.event_time));
+  for (Observer *observer : observers_)
+    observer->finish();
+  const bool stopped = now_.signal != 0, over = !stopped && finished();
+  Json ended = summary(stopped ? "stopped" : "done");
+  if (over) ended["expectations"] = check_expectations(scene_, ended);
   at_end_ = ended;
   output_.save(ended);
   log_.info("{}", report_of_run(ended));
-  tell_doubts(ended);
-  if (signal_ != 0) {
+  messages_->report_doubts(ended);
+  if (stopped) {
     log_.info("stopped by a signal; go on with: {}", resuming_command());
-    return exit_status_of_signal(signal_);
+    return exit_status_of_signal(now_.signal);
   }
-  if (results_.peak().kind == PeakKind::none && ended_by() == "target" && keeps_checkpoints() &&
+  if (results_.peak().kind == PeakKind::none && ended_by() == "target" && checkpoints_->are_kept() &&
       !scene_.loading.staged() && !scene_.loading.hydrostatic())
     log_.info("it goes on from here with: {}{}", resuming_command(target_entry),
               shell_entry(fmt::format("{} = {:.3g}", target_entry, 2 * scene_.loading.target_strain)));
   log_.info("results are in {}", paths_.folder.string());
-  if (!finished()) {
+  if (!over) {
     log_.info("ended before its target: what the scene expects is not checked");
     return status_done;
   }
   return output_.tell_expectations(ended);
+}
+
+Json CompressionRun::summary(const std::string &status) const {
+  if (!at_end_.is_null()) return at_end_;
+  const RunCosts spent = costs();
+  Json made = summary_of_run(status, {scene_, *test_, results_, spent});
+  if (!changes_.empty()) made["changes"] = changes_;
+  made["expectations"] = unchecked_expectations(scene_, "the test has not come to its end");
+  return made;
 }
 
 int run_compression(const CommandLine &command, const Scene &scene) {

@@ -77,37 +77,51 @@ dem::Specimen resumed(const Scene &scene, const OutputPaths &paths) {
 } // namespace
 
 CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, Pressed pressed)
-    : command_(command), scene_(scene), output_(command, scene, true) {
+    : command_(command),
+      scene_(scene),
+      resumes_(command.resume && !command.dry_run),
+      output_(command, scene, true) {
   require_same_on_ranks(scene_text(scene, paths_.folder));
-  const bool resumes = command.resume && !command.dry_run;
-  const FileMarks marks = resumes ? marks_of_checkpoint() : FileMarks{};
-  const bool packs = !resumes && scene.specimen.packing != PackingKind::file;
+  const FileMarks marks = resumes_ ? marks_of_checkpoint() : FileMarks{};
+  const bool packs = !resumes_ && scene.specimen.packing != PackingKind::file;
   if (packs) require_memory(as_pressed(specimen_shape(scene), scene, pressed));
   if (!counted_.empty()) return;
   // A resumed run takes the packing that the first part wrote, to the last bit.
-  const dem::Specimen specimen = resumes ? resumed(scene, paths_) : placed(scene, pressed, keep_packing());
+  const auto keep = [&] {
+    return keep_packing(command, scene, !command.dry_run && !this_rank().is_silent(), log_);
+  };
+  const dem::Specimen specimen = resumes_ ? resumed(scene, paths_) : placed(scene, pressed, keep());
   require_spheres(scene, specimen);
   if (!packs) require_memory(specimen.shape);
-  if (!counted_.empty()) return;
-  coupling::PlatenTestSettings settings = problem_settings(scene);
-  if (resumes) settings.model.instruction_set = instruction_set_of_checkpoint();
-  std::unique_ptr<dem::Exchange> exchange = command.dry_run ? nullptr : exchange_of_ranks();
-  const CommonSet common = common_instruction_set(settings.model.instruction_set, exchange.get(), resumes);
+  if (counted_.empty()) set_up(specimen, marks);
+}
+
+void CompressionRun::set_up(const dem::Specimen &specimen, const FileMarks &marks) {
+  coupling::PlatenTestSettings settings = problem_settings(scene_);
+  if (resumes_)
+    settings.model.instruction_set =
+        resumed_instruction_set(CheckpointReader(newest_whole_checkpoint(paths_.checkpoints()).path), log_);
+  std::unique_ptr<dem::Exchange> exchange = command_.dry_run ? nullptr : exchange_of_ranks();
+  const CommonSet common = common_instruction_set(settings.model.instruction_set, exchange.get(), resumes_);
   settings.model.instruction_set = common.set;
   if (!common.note.empty()) log_.warning("{}", common.note);
   test_ = std::make_unique<coupling::PlatenTest>(specimen, settings);
   require_prompt_platens(*test_);
-  specimen_state_ = state_of(scene, specimen, *test_);
-  require_specimen(scene, specimen_state_);
-  results_ = Results(scene.loading.test == LoadingTest::tension, {scene.output.sound_share},
-                     coupling::loaded_axis(*test_), tells_pattern(scene, *test_));
-  sampler_ = std::make_unique<Sampler>(*test_);
-  if (scene.loading.start_strain > 0 && !resumes) start_pressed();
+  specimen_state_ = state_of(scene_, specimen, *test_);
+  require_specimen(scene_, specimen_state_);
+  results_ = Results(scene_.loading.test == LoadingTest::tension, {scene_.output.sound_share},
+                     coupling::loaded_axis(*test_), tells_pattern(scene_, *test_));
+  Sampler sampler(*test_);
+  if (scene_.loading.start_strain > 0 && !resumes_) {
+    as_packed_ = sampler(*test_); // from which moduli and strains are read
+    start_pressed();
+  }
   expected_steps_ = std::max(1.0, test_->program().expected_seconds() / test_->time_step());
   require_length();
+  record_.emplace(scene_, *test_, results_, paths_, std::move(sampler), expected_steps_);
   setup_seconds_ = output_.seconds();
-  if (command.dry_run) return;
-  if (resumes) require_tables(marks);
+  if (command_.dry_run) return;
+  if (resumes_) record_->require_tables(marks);
   if (exchange) {
     ranks_ = exchange.get();
     ranks_->largest(0); // nothing is written while another rank still reads what an earlier part has left
@@ -115,12 +129,8 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   }
   catch_stop_signals(); // before the first byte is written: from here on a stop leaves a checkpoint
   output_.open();
-  if (!resumes) write_specimen_csv(paths_.specimen_csv(), specimen);
+  if (!resumes_) write_specimen_csv(paths_.specimen_csv(), specimen);
   specimen_sum_ = sha256_of_file(paths_.specimen_csv()).value_or("");
-}
-
-KeepPacking CompressionRun::keep_packing() {
-  return apps::keep_packing(command_, scene_, !command_.dry_run && !this_rank().is_silent(), log_);
 }
 
 // Of the newest checkpoint, if the files that the test is made from are still those of it.
@@ -133,6 +143,19 @@ FileMarks CompressionRun::marks_of_checkpoint() {
         marks.changes + "; run the script anew");
   require_same_specimen(marks, paths_);
   require_same_inputs(marks, scene_, output_.inputs());
+  return marks;
+}
+
+// What a checkpoint says of files, which the disk then has.
+FileMarks CompressionRun::marks_of_files() {
+  FileMarks marks;
+  for (Observer *observer : observers_)
+    observer->mark(marks);
+  marks.specimen_sum = specimen_sum_;
+  marks.input_sums = output_.inputs().dump();
+  marks.wall_seconds = costs().wall_seconds;
+  marks.target_strain = scene_.loading.target_strain;
+  marks.changes = changes_.empty() ? "" : changes_.dump();
   return marks;
 }
 
@@ -177,14 +200,7 @@ void CompressionRun::require_length() const {
                     seconds / between, seconds, fewest_rows));
 }
 
-dem::InstructionSet CompressionRun::instruction_set_of_checkpoint() {
-  const FoundCheckpoint found = newest_whole_checkpoint(paths_.checkpoints());
-  return resumed_instruction_set(CheckpointReader(found.path), log_);
-}
-
-// Moduli and strains are told from the specimen as it was packed.
 void CompressionRun::start_pressed() {
-  as_packed_ = (*sampler_)(*test_);
   try {
     coupling::start_statically(*test_, scene_.loading.start_strain);
   } catch (const coupling::NumericsStopped &e) {

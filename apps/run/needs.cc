@@ -6,7 +6,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <functional>
+#include <numeric>
+#include <vector>
 
 #include "apps/output/machine.h"
 #include "apps/output/progress.h"
@@ -68,26 +69,21 @@ double width_of(const dem::Shape &shape) {
   return shape.kind == dem::ShapeKind::box ? std::max(shape.width_x, shape.width_y) : 2 * shape.radius;
 }
 
-double cells_of_mesh(const Scene &scene, coupling::Side side) {
-  const std::string &file = scene.platens.face(side).mesh_file;
-  return file.empty() ? 0 : share_of_hexahedra * elements_in(file);
-}
-
-double platen_cells(const Scene &scene, const dem::Shape &shape, const coupling::PlatenTestSettings &of) {
+double plate_cells(const Scene &scene, const dem::Shape &shape, const coupling::PlatenTestSettings &of) {
   double cells = 0;
   for (const coupling::Side side : coupling::all_sides)
-    if (of.platens.side(side) != nullptr)
-      cells += scene.platens.face(side).mesh_file.empty() ? coupling::cells_of_platen(shape, of, side)
-                                                          : cells_of_mesh(scene, side);
+    if (of.platens.side(side) != nullptr && scene.platens.face(side).mesh_file.empty())
+      cells += coupling::cells_of_platen(shape, of, side);
   return cells;
 }
 
 // Faces are as long as wide; 0 around: as wide as five spheres, so that the spheres count first.
-double sleeve_cells(const Scene &scene, const dem::Shape &shape, double around) {
-  if (!scene.loading.sleeved()) return 0;
-  if (around == 0) around = 2 * pi * shape.radius / (5 * scene.specimen.sphere_radius);
-  const double along = shape.height / (2 * pi * shape.radius) * around;
-  return around * along * scene.loading.cell->sleeve->elements_through;
+double sleeve_cells(const Scene &scene, const dem::Shape &shape) {
+  const coupling::SleeveSettings &sleeve = *scene.loading.cell->sleeve;
+  const double girth = 2 * pi * shape.radius, around = sleeve.elements_around > 0
+                                                           ? sleeve.elements_around
+                                                           : girth / (5 * scene.specimen.sphere_radius);
+  return around * (shape.height / girth * around) * sleeve.elements_through;
 }
 
 double spheres_in(const Scene &scene, const dem::Shape &shape) {
@@ -95,71 +91,46 @@ double spheres_in(const Scene &scene, const dem::Shape &shape) {
          (4.0 / 3.0 * pi * std::pow(scene.specimen.sphere_radius, 3));
 }
 
-Needs needs_of(const Scene &scene, const dem::Shape &shape, const coupling::PlatenTestSettings &settings,
-               double around) {
-  Needs n;
-  if (scene.specimen.packing != PackingKind::file) n.spheres = spheres_in(scene, shape);
-  n.platen_cells = platen_cells(scene, shape, settings);
-  n.sleeve_cells = sleeve_cells(scene, shape, around);
-  n.sphere_bytes = bytes_of_sphere * n.spheres;
-  n.platen_bytes = bytes_of_cell(settings.platens) * n.platen_cells;
-  n.sleeve_bytes = bytes_of_sleeve * n.sleeve_cells;
-  return n;
-}
+// What takes memory, and the entry that decides how much. Counts and bytes are lower bounds: so much is there
+// for certain.
+struct Need {
+  enum class Of { spheres, platens, sleeve } of;
+  std::string entry, what;
+  double count, bytes;
+};
 
-double elements_around(const Scene &scene) {
-  return scene.loading.sleeved() ? scene.loading.cell->sleeve->elements_around : 0;
-}
-
-// The largest whole number up to `most` for which `fits`; 0 where none does.
-int largest(int most, const std::function<bool(int)> &fits) {
-  int low = 0, high = most + 1;
-  while (high - low > 1) {
-    const int middle = low + (high - low) / 2;
-    (fits(middle) ? low : high) = middle;
-  }
-  return low;
-}
-
-// What the refused entry may be, where anything else stays as it is.
-std::string allowed(int most) {
-  return most > 0 ? fmt::format("up to {}", most) : "none with all else as it is";
-}
-
-[[noreturn]] void refuse_elements(const Scene &scene, const std::string &entry, const std::string &of,
-                                  double cells, double bytes, double memory, const std::string &may_be) {
-  refuse(
-      scene, entry,
-      fmt::format("asks for {:.2g} elements of {}, which take {:.3g} GB of memory or more. Allowed: {}, as "
-                  "this machine's memory of {:.3g} GB holds.",
-                  cells, of, 1e-9 * bytes, may_be, 1e-9 * memory));
-}
-
-void refuse_platens(const Scene &scene, const dem::Shape &shape, const coupling::PlatenTestSettings &settings,
-                    const Needs &needs, double memory) {
+std::vector<Need> needs_of(const Scene &scene, const dem::Shape &shape,
+                           const coupling::PlatenTestSettings &settings) {
+  std::vector<Need> needs;
+  const auto add = [&](Need::Of of, const std::string &entry, const std::string &what, double count,
+                       double bytes) {
+    needs.push_back({of, entry, what, count, bytes * count});
+  };
+  if (scene.specimen.packing != PackingKind::file)
+    add(Need::Of::spheres, "Specimen/Sphere radius", "spheres", spheres_in(scene, shape), bytes_of_sphere);
+  const double cell = bytes_of_cell(settings.platens);
+  add(Need::Of::platens, "Platens/Elements across", "elements of the platens",
+      plate_cells(scene, shape, settings), cell);
   for (const coupling::Side side : coupling::all_sides)
-    if (settings.platens.side(side) != nullptr && cells_of_mesh(scene, side) > 0.5 * needs.platen_cells)
-      refuse_elements(scene, section_of(side) + "/Mesh file", "a platen", cells_of_mesh(scene, side),
-                      needs.platen_bytes, memory, "a coarser mesh");
-  const int most = largest(settings.platens.elements_across, [&](int across) {
-    if (across < 3) return true; // fewer than a round plate can have
-    coupling::PlatenTestSettings fewer = settings;
-    fewer.platens.elements_across = across;
-    return needs_of(scene, shape, fewer, elements_around(scene)).bytes() <= memory;
-  });
-  refuse_elements(scene, "Platens/Elements across", "the platens", needs.platen_cells, needs.platen_bytes,
-                  memory, allowed(most < 3 ? 0 : most));
+    if (settings.platens.side(side) != nullptr)
+      add(Need::Of::platens, section_of(side) + "/Mesh file", "elements of a platen",
+          share_of_hexahedra * elements_in(scene.platens.face(side).mesh_file), cell);
+  if (scene.loading.sleeved())
+    add(Need::Of::sleeve,
+        scene.loading.cell->sleeve->elements_around > 0 ? "Sleeve/Elements around"
+                                                        : "Sleeve/Elements through",
+        "elements of the sleeve", sleeve_cells(scene, shape), bytes_of_sleeve);
+  return needs;
 }
 
-void refuse_sleeve(const Scene &scene, const dem::Shape &shape, const coupling::PlatenTestSettings &settings,
-                   const Needs &needs, double memory) {
-  const double around = elements_around(scene);
-  const int most = largest(static_cast<int>(around), [&](int fewer) {
-    return needs_of(scene, shape, settings, std::max(1, fewer)).bytes() <= memory;
-  });
-  const bool given = around > 0;
-  refuse_elements(scene, given ? "Sleeve/Elements around" : "Sleeve/Elements through", "the sleeve",
-                  needs.sleeve_cells, needs.sleeve_bytes, memory, given ? allowed(most) : "fewer");
+double bytes_of(const std::vector<Need> &needs) {
+  return std::accumulate(needs.begin(), needs.end(), 0.0,
+                         [](double sum, const Need &one) { return sum + one.bytes; });
+}
+
+double count_of(const std::vector<Need> &needs, Need::Of of) {
+  return std::accumulate(needs.begin(), needs.end(), 0.0,
+                         [of](double sum, const Need &one) { return one.of == of ? sum + one.count : sum; });
 }
 
 // Elements far below the spheres have nothing between their nodes that differs: memory and time for nothing.
@@ -207,19 +178,20 @@ double longest_step(const Scene &scene, const dem::Shape &shape, const coupling:
 }
 
 // s, on two threads.
-double seconds_of_step(const Needs &needs, const coupling::PlatenTestSettings &of) {
+double seconds_of_step(const std::vector<Need> &needs, const coupling::PlatenTestSettings &of) {
   const bool steps_elements =
       of.platens.elastic && of.platens.elastic->motion == fem::ElasticMotion::explicit_steps;
-  return seconds_of_sphere * needs.spheres + seconds_of_sleeve * needs.sleeve_cells +
-         (steps_elements ? seconds_of_explicit : seconds_of_rigid) * needs.platen_cells;
+  return seconds_of_sphere * count_of(needs, Need::Of::spheres) +
+         seconds_of_sleeve * count_of(needs, Need::Of::sleeve) +
+         (steps_elements ? seconds_of_explicit : seconds_of_rigid) * count_of(needs, Need::Of::platens);
 }
 
 } // namespace
 
 CountedCosts counted_costs(const Scene &scene, const dem::Shape &shape) {
   const coupling::PlatenTestSettings settings = settings_without_files(scene);
-  const Needs needs = needs_of(scene, shape, settings, elements_around(scene));
-  return {needs.spheres, needs.bytes(),
+  const std::vector<Need> needs = needs_of(scene, shape, settings);
+  return {count_of(needs, Need::Of::spheres), bytes_of(needs),
           seconds_of_step(needs, settings) * duration(scene, shape.height) /
               longest_step(scene, shape, settings)};
 }
@@ -228,49 +200,39 @@ CountedCosts counted_costs(const Scene &scene) {
   try {
     if (scene.specimen.packing != PackingKind::file && !scene.loading.bending())
       return counted_costs(scene, specimen_shape(scene));
-  } catch (const std::exception &) { // which its run will tell
+  } catch (const std::exception &) { // which its run will report
   }
   return {not_given, not_given, not_given};
-}
-
-Needs needs_of(const Scene &scene, const dem::Shape &shape) {
-  return needs_of(scene, shape, settings_without_files(scene), elements_around(scene));
 }
 
 void require_memory(const Scene &scene, const dem::Shape &shape) {
   if (scene.specimen.packing != PackingKind::file) check_count(scene, shape);
   const auto memory = static_cast<double>(this_machine().memory_bytes);
   const coupling::PlatenTestSettings settings = settings_without_files(scene);
-  const Needs needs = needs_of(scene, shape, settings, elements_around(scene));
-  if (memory == 0 || needs.bytes() <= memory) return require_useful_elements(scene, shape, settings);
-  if (needs.platen_bytes >= std::max(needs.sphere_bytes, needs.sleeve_bytes))
-    refuse_platens(scene, shape, settings, needs, memory);
-  if (needs.sleeve_bytes >= needs.sphere_bytes) refuse_sleeve(scene, shape, settings, needs, memory);
+  const std::vector<Need> needs = needs_of(scene, shape, settings);
+  const double bytes = bytes_of(needs);
+  if (memory == 0 || bytes <= memory) return require_useful_elements(scene, shape, settings);
+  const Need &most = *std::max_element(needs.begin(), needs.end(),
+                                       [](const Need &a, const Need &b) { return a.bytes < b.bytes; });
   refuse(
-      scene, "Specimen/Sphere radius",
-      fmt::format("asks for {:.2g} spheres, which take {:.3g} GB of memory or more, and finite elements "
-                  "that take {:.3g} GB. Allowed: larger spheres or fewer elements, as this machine's memory "
-                  "of {:.3g} GB holds.",
-                  needs.spheres, 1e-9 * needs.sphere_bytes, 1e-9 * (needs.platen_bytes + needs.sleeve_bytes),
-                  1e-9 * memory));
+      scene, most.entry,
+      fmt::format("asks for {:.2g} {}, which take {:.3g} GB of memory or more, of {:.3g} GB in all. Allowed: "
+                  "fewer, so that all fits into this machine's memory of {:.3g} GB.",
+                  most.count, most.what, 1e-9 * most.bytes, 1e-9 * bytes, 1e-9 * memory));
 }
 
 std::string counted_estimate(const Scene &scene, const dem::Shape &shape) {
   const auto memory = static_cast<double>(this_machine().memory_bytes);
-  const coupling::PlatenTestSettings settings = settings_without_files(scene);
-  const Needs needs = needs_of(scene, shape, settings, elements_around(scene));
-  if (memory == 0 || needs.bytes() <= share_of_dry_run * memory) return "";
-  const double step = seconds_of_step(needs, settings),
-               steps = duration(scene, shape.height) / longest_step(scene, shape, settings);
-  const std::string time = std::isnan(steps) ? "time not counted"
-                                             : fmt::format("{} or more ({:.2g} steps or more)",
-                                                           duration_text(step * steps), steps);
+  const std::vector<Need> needs = needs_of(scene, shape, settings_without_files(scene));
+  if (memory == 0 || bytes_of(needs) <= share_of_dry_run * memory) return "";
+  const double seconds = counted_costs(scene, shape).seconds;
   return fmt::format(
       "  counted, not built: {:.2g} spheres, {:.2g} elements of platens, {:.2g} of a sleeve\n"
       "  estimate: {}, memory {:.0f} MB or more; a dry run builds no more than an eighth of the memory, "
-      "{:.0f} "
-      "MB\n",
-      needs.spheres, needs.platen_cells, needs.sleeve_cells, time, 1e-6 * needs.bytes(),
+      "{:.0f} MB\n",
+      count_of(needs, Need::Of::spheres), count_of(needs, Need::Of::platens),
+      count_of(needs, Need::Of::sleeve),
+      std::isnan(seconds) ? "time not counted" : duration_text(seconds) + " or more", 1e-6 * bytes_of(needs),
       1e-6 * share_of_dry_run * memory);
 }
 

@@ -1,27 +1,15 @@
 // What a test between platens will need of the machine, counted before anything is made.
 #pragma once
 
-#include <array>
 #include <string>
 
 #include "apps/scene/scene.h"
-#include "coupling/side.h"
 #include "dem/packing/specimen.h"
 
 namespace platen::apps {
 
-// Lower bounds: what is counted is there for certain, and takes at least so much.
-struct Needs {
-  double spheres = 0, platen_cells = 0, sleeve_cells = 0;
-  double sphere_bytes = 0, platen_bytes = 0, sleeve_bytes = 0;
-  double bytes() const { return sphere_bytes + platen_bytes + sleeve_bytes; }
-};
-
-// `shape`: the specimen as the app presses it.
-Needs needs_of(const Scene &scene, const dem::Shape &shape);
-
-// Throws InputError where that is more than the machine's memory: names the entry of what needs most, and how
-// far it may go.
+// Throws InputError where the test needs more than the machine's memory, by lower bounds: names the entry of
+// what needs most. `shape`: the specimen as the app presses it.
 void require_memory(const Scene &scene, const dem::Shape &shape);
 
 // What a run takes, counted as above: spheres, their and all elements' bytes, seconds of wall clock to the

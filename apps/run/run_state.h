@@ -3,7 +3,6 @@
 
 #include "apps/output/checkpoint.h"
 #include "apps/output/run_log.h"
-#include "apps/run/fields.h"
 #include "apps/run/file_marks.h"
 #include "apps/run/results.h"
 #include "coupling/platen_test.h"

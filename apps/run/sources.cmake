@@ -2,14 +2,13 @@ set(PLATEN_RUN_SOURCES
   run/app_output.cc
   run/change_on_the_way.cc
   run/changed_scene.cc
+  run/checkpoints.cc
   run/compression.cc
-  run/compression_files.cc
-  run/compression_schedule.cc
   run/compression_setup.cc
   run/controls.cc
   run/estimate.cc
-  run/fields.cc
   run/frame.cc
+  run/frames.cc
   run/file_marks.cc
   run/history.cc
   run/model_setup.cc
@@ -20,7 +19,9 @@ set(PLATEN_RUN_SOURCES
   run/problem_setup.cc
   run/$<IF:$<BOOL:${PLATEN_RANKS}>,ranks,no_ranks>.cc
   run/quasi_static.cc
+  run/record.cc
   run/results.cc
+  run/run_messages.cc
   run/run_state.cc
   run/shared_packing.cc
   run/specimen_check.cc
