@@ -97,9 +97,9 @@ int fail(const std::exception &error, int status) {
   std::string text = error.what();
   for (char &c : text) // names of files may hold what a terminal obeys
     if ((static_cast<unsigned char>(c) < 0x20 && c != '\n') || c == 0x7f) c = '?';
-  before_telling_a_failure();
+  before_reporting_a_failure();
   std::cerr << "error: " << text << '\n';
-  after_telling_a_failure(status);
+  after_reporting_a_failure(status);
   return status;
 }
 

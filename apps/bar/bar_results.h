@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "apps/bar/bar_section.h"
-#include "apps/bar/dynamic_test.h"
-#include "apps/bar/static_test.h"
+#include "apps/bar/bar_oscillations.h"
+#include "apps/bar/bar_at_rest.h"
 #include "apps/output/csv_writer.h"
 #include "apps/run/app_output.h"
 

@@ -2,7 +2,7 @@
 set(PLATEN_BAR_SOURCES
   bar/bar.cc
   bar/bar_results.cc
-  bar/dynamic_test.cc
+  bar/bar_oscillations.cc
   bar/run_bar.cc
-  bar/static_test.cc
+  bar/bar_at_rest.cc
   bar/strength_of_materials.cc)

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/bonds/interface_test.h"
+#include "apps/bonds/guided_pair.h"
 #include "apps/bonds/load_path.h"
 #include "apps/run/app_output.h"
 #include "apps/scene/command_line.h"

@@ -4,7 +4,7 @@ set(PLATEN_BONDS_SOURCES
   bonds/bond_rig.cc
   bonds/closed_forms.cc
   bonds/interface_forms.cc
-  bonds/interface_test.cc
+  bonds/guided_pair.cc
   bonds/load_path.cc
   bonds/moment_forms.cc
   bonds/run_bonds.cc)

@@ -8,6 +8,7 @@
 
 #include "apps/scene/program.h"
 #include "apps/scene/scene.h"
+#include "apps/scene/surfaces.h"
 #include "base/describe.h"
 
 namespace platen::apps {

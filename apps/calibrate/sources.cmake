@@ -12,7 +12,7 @@ set(PLATEN_CALIBRATE_SOURCES
   calibrate/run_calibrate.cc
   calibrate/search.cc
   calibrate/space.cc
-  calibrate/specimen_test.cc
+  calibrate/trial_specimen.cc
   calibrate/target_curve.cc
   calibrate/trial.cc
   calibrate/trials.cc)

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/calibrate/specimen_test.h"
+#include "apps/calibrate/trial_specimen.h"
 
 namespace platen::apps {
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "apps/scene/checks.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/surfaces.h"
 #include "apps/scene/values.h"

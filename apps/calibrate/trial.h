@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/calibrate/choice.h"
-#include "apps/calibrate/specimen_test.h"
+#include "apps/calibrate/trial_specimen.h"
 #include "dem/measure/bond_network.h"
 #include "dem/packing/specimen.h"
 

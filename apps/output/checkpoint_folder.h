@@ -27,8 +27,7 @@ void remove_other_checkpoints(const std::filesystem::path &folder, std::uint64_t
 struct FoundCheckpoint {
   std::filesystem::path path;
   std::uint64_t step = 0;
-  std::vector<std::string>
-      remarks; // newer checkpoints that are damaged, one sentence each: to be told to the user
+  std::vector<std::string> remarks; // newer checkpoints that are damaged, one sentence each: for the user
 };
 
 // The newest checkpoint of which every byte holds. Throws CheckpointError where there is none; the text says

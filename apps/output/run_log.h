@@ -24,7 +24,7 @@ struct RunHeader {
 
 // One thread only. What is said before open() is kept and stands in the file after its head. info() and
 // warning() throw OutputError where the file cannot be written; after the first failure the file is left
-// alone, so that the failure itself can still be told on the screen.
+// alone, so that the failure itself can still be reported on the screen.
 class RunLog {
 public:
   explicit RunLog(Loudness loudness);

@@ -22,7 +22,7 @@ private:
 };
 
 // A standard deviation of fewer packings says little of the scatter: of three its 95 % range is from half to
-// six times what was found. Their range is told instead.
+// six times what was found. Their range is reported instead.
 constexpr std::size_t fewest_for_deviation = 5;
 
 // In multiples of `unit`: "mean +- deviation" of five packings and more, "least ... largest, 3 packings" of

@@ -32,7 +32,7 @@ double number_in(const Json &summary, const std::string &key);
 // A text of a summary by its key; "" where it is none or is not there.
 std::string text_in(const Json &summary, const std::string &key);
 
-// Members of `acoustic` that tell one b-value: `key` ("b_before"), with its _error, the range of magnitudes
+// Members of `acoustic` for one b-value: `key` ("b_before"), with its _error, the range of magnitudes
 // that it is of (_limit, _upper: null where all from the limit on are), how many _events lie there and _above
 // it, and the _reason where there is no b.
 Json json_of_b(const dem::BValue &value, const std::string &key);

@@ -78,7 +78,8 @@ std::string reason(unsigned long code) {
   return "the VTK writer failed with code " + std::to_string(code);
 }
 
-// Write() of the writer says success on a full disk; the error code, and the end of the file, tell the truth.
+// Write() of the writer reports success on a full disk; the error code and the end of the file show the
+// failure.
 void write_part(const std::filesystem::path &part, vtkXMLWriter &writer) {
   vtkNew<vtkCallbackCommand> silent; // the error is reported by what is thrown
   silent->SetCallback([](vtkObject *, unsigned long, void *, void *) {});

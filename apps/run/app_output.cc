@@ -9,7 +9,6 @@
 #include "apps/output/machine.h"
 #include "apps/output/sha256.h"
 #include "apps/run/figures.h"
-#include "apps/scene/checks.h"
 #include "apps/scene/expect.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/rank.h"
@@ -106,7 +105,7 @@ void AppOutput::open(int working_threads) {
   scene_sum_ = sha256_of_file(paths.scene()).value_or("");
 }
 
-void AppOutput::lead_on() {
+void AppOutput::keep_changes() {
   if (changes_.empty()) return;
   for (const SceneChange &change : changes_)
     log.info("led on with another {}: {}, it was {}", change.entry, change.now.empty() ? "none" : change.now,
@@ -125,10 +124,10 @@ int AppOutput::finish(Json summary, const std::string &report) {
   summary["expectations"] = check_expectations(scene_, summary);
   save(summary);
   log.info("{}", report);
-  return tell_expectations(summary);
+  return report_expectations(summary);
 }
 
-int AppOutput::tell_expectations(const Json &summary) {
+int AppOutput::report_expectations(const Json &summary) {
   bool all_met = true;
   std::vector<std::string> unchecked;
   for (const Json &one : summary.at("expectations")) {

@@ -44,7 +44,7 @@ public:
   // only goes on with its log.
   void open(int working_threads = loop_threads());
   // Of a resumed run, once its checkpoint is read: what has changed is said, and scene.prm is the scene now.
-  void lead_on();
+  void keep_changes();
   // Writes summary.json, with the SHA-256 of the scene as run and of the files that it names.
   void save(Json summary) const;
   // Checks what the scene expects, writes the summary with the verdicts, says `report`; returns the exit
@@ -52,7 +52,7 @@ public:
   int finish(Json summary, const std::string &report);
   // Tells each expectation of a summary's `expectations` that is not met, and those that another app would
   // have to check; returns the exit status, status_done or status_check_failed.
-  int tell_expectations(const Json &summary);
+  int report_expectations(const Json &summary);
 
   // Of a run that writes no more: the folder is free for another one.
   void release() { lock_.reset(); }

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <sstream>
 #include <utility>
 
+#include "apps/scene/assignments.h"
 #include "apps/scene/errors.h"
-#include "apps/scene/scene_files.h"
+#include "apps/scene/scene_writer.h"
 #include "apps/scene/values.h"
 
 namespace platen::apps {
@@ -20,22 +20,10 @@ using Texts = std::vector<std::pair<std::string, std::string>>; // of entries, b
 
 // Of a scene as write_prm writes it.
 Texts texts_of(const std::string &prm) {
-  const std::string opens = "subsection ", sets = "set ";
   Texts texts;
-  std::vector<std::string> path;
-  std::istringstream lines(prm);
-  for (std::string line; std::getline(lines, line);) {
-    line = trimmed(line);
-    const std::size_t equals = line.find('=');
-    if (line.rfind(opens, 0) == 0)
-      path.push_back(line.substr(opens.size()));
-    else if (line == "end" && !path.empty())
-      path.pop_back();
-    else if (line.rfind(sets, 0) == 0 && equals != std::string::npos)
-      texts.emplace_back(
-          fmt::format("{}/{}", fmt::join(path, "/"), trimmed(line.substr(sets.size(), equals - sets.size()))),
-          trimmed(line.substr(equals + 1)));
-  }
+  for (const Assignment &one : prm_assignments(prm, "scene.prm").assignments)
+    if (one.kind == Assignment::Kind::value)
+      texts.emplace_back(one.section + "/" + one.key, trimmed(one.text));
   return texts;
 }
 

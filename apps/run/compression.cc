@@ -124,7 +124,7 @@ FileMarks CompressionRun::resume() {
   const FileMarks marks = load_state(checkpoint, *test_, results_);
   if (results_.samples().empty()) checkpoint.fail("\"results/samples\" has no row, one at least is needed");
   if (marks.target_strain != scene_.loading.target_strain) test_->go_on();
-  output_.lead_on();
+  output_.keep_changes();
   record_->resume(marks);
   earlier_seconds_ = marks.wall_seconds;
   first_step_ = test_->steps();
@@ -192,7 +192,7 @@ int CompressionRun::end() {
     log_.info("ended before its target: what the scene expects is not checked");
     return status_done;
   }
-  return output_.tell_expectations(ended);
+  return output_.report_expectations(ended);
 }
 
 Json CompressionRun::summary(const std::string &status) const {

@@ -110,7 +110,7 @@ void CompressionRun::set_up(const dem::Specimen &specimen, const FileMarks &mark
   specimen_state_ = state_of(scene_, specimen, *test_);
   require_specimen(scene_, specimen_state_);
   results_ = Results(scene_.loading.test == LoadingTest::tension, {scene_.output.sound_share},
-                     coupling::loaded_axis(*test_), tells_pattern(scene_, *test_));
+                     coupling::loaded_axis(*test_), measures_pattern(scene_, *test_));
   Sampler sampler(*test_);
   if (scene_.loading.start_strain > 0 && !resumes_) {
     as_packed_ = sampler(*test_); // from which moduli and strains are read
@@ -164,7 +164,7 @@ void CompressionRun::require_memory(const dem::Shape &shape) {
   if (command_.dry_run) counted_ = counted_estimate(scene_, shape);
 }
 
-// What tells the test: steps enough that something happens between them, and rows enough to see a peak.
+// What makes a test: steps enough that something happens between them, and rows enough to see a peak.
 void CompressionRun::require_length() const {
   constexpr double fewest_steps = 100, most_steps = 1e12, fewest_rows = 5;
   const double transit = test_->facts().wave_transit;
@@ -182,7 +182,7 @@ void CompressionRun::require_length() const {
                             : !by_rate                              ? "Loading/Test"
                             : std::isnan(loading.rate)              ? "Loading/Wave crossings"
                                                                     : "Loading/Axial rate";
-  // Of a stage that waits for a stress nobody knows how long it takes: nothing is told of it then.
+  // Of a stage that waits for a stress nobody knows how long it takes: nothing is refused then.
   for (std::size_t k = 0; k < test_->program().stage_count(); ++k)
     if (!(test_->program().stage(k).expected_seconds() > 0)) return;
   if (seconds < fewest_steps * step || seconds > most_steps * step)

@@ -26,7 +26,7 @@ std::string with_misses(const std::string &ended_by, const coupling::PlatenTest 
 
 // What speaks against a figure that is read off at a time (s): stresses and pressures that were asked, and
 // not reached, until then, unless something else has been asked along the same axis since. A rate that was
-// not reached does not: figures are told with the strains and speeds that were.
+// not reached does not: figures are reported with the strains and speeds that were reached.
 std::vector<std::string> controls_against(const coupling::PlatenTest &problem, const Results &results,
                                           double time);
 // And that a cell's pressure no longer loaded enough of the lateral surface; empty where it did, or where

@@ -46,7 +46,7 @@ enum Need : unsigned {
   top_cone = 1u << 15,      // a cone on top
   bottom_cone = 1u << 16,   // on the bottom
   of_machine = 1u << 17,    // costs: Expect does not name them
-  of_every_test = 1u << 18, // also told, or null, by programs that test without platens
+  of_every_test = 1u << 18, // also reported, or null, by programs that test without platens
 };
 constexpr unsigned read_off = history | peak | modulus | damage | consolidation;
 constexpr unsigned youngs = modulus | elastic | bare | stiffness | section | of_every_test,
@@ -71,7 +71,8 @@ struct Figure {
 };
 
 // Takes the rows one after the other: `take(figure, value)`, and `where(holds)`, by which those that follow
-// are told where it holds. `value` and `holds` are called with a TestRecord (test_record.h), or not at all.
+// are reported where it holds. `value` and `holds` are called with a TestRecord (test_record.h), or not at
+// all.
 template <class Taker>
 struct FigureList {
   template <class Value>
@@ -291,7 +292,7 @@ void list_disc_and_bar(List &list) {
   list.add("moment_over_nominal", "1", peak | section, {"moment at mid-span over PL/4", "{:.3f}"},
            "midspan_moment_n_m", [](auto &t) { return t.moment_over_nominal(); });
   list.add("swings_to_peak", "1", history, {"swings of the bar to the peak", "{:.1f}"},
-           [](auto &t) { return t.swings_to_peak(); });
+           [](auto &t) { return t.oscillations_to_peak(); });
   list.add("cracks_near_midspan", "1", 0, {"cracks within d/2 of mid-span", "{:.2f}"},
            [](auto &t) { return t.cracks_near_midspan(); });
   list.where(everywhere);
@@ -414,7 +415,7 @@ void list_pattern(List &list, bool last) {
   list.where(everywhere);
 }
 
-// What cracks told while they came.
+// What was counted while bonds broke.
 template <class List>
 void list_emission(List &list) {
   list.add("crack_rose", "", [](auto &t) {

@@ -38,6 +38,14 @@ constexpr HistoryColumn::Missing without_ledger = HistoryColumn::Missing::withou
                                  without_forces = HistoryColumn::Missing::without_forces,
                                  without_pressure = HistoryColumn::Missing::without_pressure;
 
+// In every test: an energy of the ledger; what is measured on spheres of some place.
+HistoryColumn energy(const char *name, double Sample::*member, double (*measure)(const Seen &)) {
+  return {name, "J", member, measure, number, nullptr, without_ledger};
+}
+HistoryColumn of_spheres(const char *name, double Sample::*member, double (*measure)(const Seen &)) {
+  return {name, "1", member, measure, number, nullptr, without_spheres};
+}
+
 bool in_cell(const PlatenTest &p) {
   return p.cell();
 }
@@ -110,13 +118,12 @@ const std::vector<HistoryColumn> &history_columns() {
       {"time_s", "s", &S::time, [](const Seen &s) { return s.problem.time(); }},
       {"axial_strain_platen", "1", &S::strain_platen,
        [](const Seen &s) { return s.problem.closure_strain(); }},
-      {"axial_strain_gauge", "1", &S::strain_gauge, [](const Seen &s) { return -s.gauge.axial; }, number,
-       nullptr, without_spheres},
-      {"lateral_strain", "1", &S::lateral_strain, [](const Seen &s) { return -s.gauge.lateral(); }, number,
-       nullptr, without_spheres},
-      {"volumetric_strain", "1", &S::volumetric_strain,
-       [](const Seen &s) { return -(s.gauge.axial + s.gauge.lateral_x + s.gauge.lateral_y); }, number,
-       nullptr, without_spheres},
+      of_spheres("axial_strain_gauge", &S::strain_gauge,
+                 [](const Seen &s) { return -s.gauge.axial; }),
+      of_spheres("lateral_strain", &S::lateral_strain,
+                 [](const Seen &s) { return -s.gauge.lateral(); }),
+      of_spheres("volumetric_strain", &S::volumetric_strain,
+                 [](const Seen &s) { return -(s.gauge.axial + s.gauge.lateral_x + s.gauge.lateral_y); }),
       {"axial_stress_top_pa", "Pa", &S::stress_top, [](const Seen &s) { return s.problem.stress_top(); }},
       {"axial_stress_bottom_pa", "Pa", &S::stress_bottom,
        [](const Seen &s) { return s.problem.stress_bottom(); }},
@@ -128,36 +135,26 @@ const std::vector<HistoryColumn> &history_columns() {
        [](const Seen &s) { return s.broken(BondState::broken_in_tension); }, count},
       {"broken_shear", "1", &S::broken_shear,
        [](const Seen &s) { return s.broken(BondState::broken_in_shear); }, count},
-      {"kinetic_energy_j", "J", &S::kinetic, [](const Seen &s) { return s.energy.kinetic; }, number, nullptr,
-       without_ledger},
-      {"bond_energy_j", "J", &S::bond, [](const Seen &s) { return s.energy.bonds; }, number, nullptr,
-       without_ledger},
-      {"contact_energy_j", "J", &S::contact, [](const Seen &s) { return s.energy.contacts; }, number, nullptr,
-       without_ledger},
-      {"body_energy_j", "J", &S::body, [](const Seen &s) { return s.energy.bodies; }, number, nullptr,
-       without_ledger},
-      {"damping_work_j", "J", &S::damping, [](const Seen &s) { return s.energy.damping; }, number, nullptr,
-       without_ledger},
-      {"friction_work_j", "J", &S::friction, [](const Seen &s) { return s.energy.friction; }, number, nullptr,
-       without_ledger},
-      {"fracture_work_j", "J", &S::fracture, [](const Seen &s) { return s.energy.fracture; }, number, nullptr,
-       without_ledger},
-      {"boundary_work_j", "J", &S::boundary, [](const Seen &s) { return s.energy.boundary; }, number, nullptr,
-       without_ledger},
-      {"energy_residual_j", "J", &S::residual, [](const Seen &s) { return s.energy.residual(); }, number,
-       nullptr, without_ledger},
+      energy("kinetic_energy_j", &S::kinetic, [](const Seen &s) { return s.energy.kinetic; }),
+      energy("bond_energy_j", &S::bond, [](const Seen &s) { return s.energy.bonds; }),
+      energy("contact_energy_j", &S::contact, [](const Seen &s) { return s.energy.contacts; }),
+      energy("body_energy_j", &S::body, [](const Seen &s) { return s.energy.bodies; }),
+      energy("damping_work_j", &S::damping, [](const Seen &s) { return s.energy.damping; }),
+      energy("friction_work_j", &S::friction, [](const Seen &s) { return s.energy.friction; }),
+      energy("fracture_work_j", &S::fracture, [](const Seen &s) { return s.energy.fracture; }),
+      energy("boundary_work_j", &S::boundary, [](const Seen &s) { return s.energy.boundary; }),
+      energy("energy_residual_j", &S::residual, [](const Seen &s) { return s.energy.residual(); }),
       {"unbalanced_force_ratio", "1", &S::unbalanced,
        [](const Seen &s) { return s.problem.unbalanced_ratio(); }, number, nullptr, without_forces},
-      {"lateral_strain_extremal", "1", &S::lateral_extremal,
-       [](const Seen &s) { return s.lateral_extremal(); }, number, nullptr, without_spheres},
-      {"axial_strain_extremal", "1", &S::axial_extremal, [](const Seen &s) { return s.axial_extremal(); },
-       number, nullptr, without_spheres},
+      of_spheres("lateral_strain_extremal", &S::lateral_extremal,
+                 [](const Seen &s) { return s.lateral_extremal(); }),
+      of_spheres("axial_strain_extremal", &S::axial_extremal,
+                 [](const Seen &s) { return s.axial_extremal(); }),
       {"platen_speed_m_s", "m/s", &S::platen_speed, [](const Seen &s) { return s.problem.platen_speed(); }},
       {"time_step_s", "s", &S::time_step, [](const Seen &s) { return s.problem.time_step(); }},
       {"grain_contacts", "1", &S::touching,
        [](const Seen &s) { return static_cast<double>(s.problem.model.touching_count()); }, count},
-      {"plastic_work_j", "J", &S::plastic, [](const Seen &s) { return s.energy.plastic; }, number, nullptr,
-       without_ledger},
+      energy("plastic_work_j", &S::plastic, [](const Seen &s) { return s.energy.plastic; }),
       {"deviator_pa", "Pa", nullptr,
        [](const Seen &s) {
          return 0.5 * (s.problem.stress_top() + s.problem.stress_bottom()) - s.problem.confining_pressure();

@@ -1,5 +1,5 @@
-// Packings that this user's runs share unless they are told not to: made once, found by what they are made
-// of.
+// Packings that the runs of this user share unless the scene says otherwise: made once, found by what they
+// are made of.
 #pragma once
 
 #include <cstdint>

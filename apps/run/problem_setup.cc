@@ -69,7 +69,7 @@ std::vector<Effect> effects(const Scene &s) {
   return all;
 }
 
-// A disc is told all that a specimen between platens may have.
+// Of a disc all effects that a specimen between platens may have are listed.
 std::vector<std::string> chosen(const Scene &scene, bool on) {
   std::vector<std::string> words;
   const bool all = scene.program->presses == Presses::discs;

@@ -21,7 +21,8 @@ constexpr double fewest_transits = 60;
 // How often a wave crosses the length of an axis in so many seconds; NaN without bonds.
 double wave_transits(const coupling::PlatenTest &problem, int axis, double seconds);
 Slowness slowness(const coupling::PlatenTest &problem, const Results &results);
-// What samples alone tell, from a tenth of the peak stress to the peak of an axis: not the wave transits.
+// What follows from samples alone, from a tenth of the peak stress to the peak of an axis: not the wave
+// transits.
 Slowness slowness(const coupling::PlatenTest &problem, const std::vector<Sample> &rise, int axis);
 
 // Whether the way to the peak is known, and with it whether the test was slow enough: it has reached its

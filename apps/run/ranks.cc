@@ -23,8 +23,8 @@ int run_app_on_ranks(int argc, char **argv, const Program &program, const AppBod
     this_rank() = {session.rank(), session.ranks(), session.ranks_here(), dist::Session::end_all};
     status = run_app(argc, argv, program, body, require_same_on_ranks);
   }
-  // All have come to the end. A launcher ends a job of which one process tells a failure, and may wait for
-  // ever where others leave at that moment: the first one alone tells it, as the last to leave.
+  // All have come to the end. A launcher ends a job of which one process reports a failure, and may wait for
+  // ever where others leave at that moment: the first one alone reports it, as the last to leave.
   if (this_rank().is_silent()) return status_done;
   if (this_rank().of > 1 && status != status_done) std::this_thread::sleep_for(to_leave);
   return status;

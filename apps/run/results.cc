@@ -315,7 +315,7 @@ void Pattern::describe(Archive &archive) {
 }
 
 void Results::describe(Archive &archive) {
-  const bool before_motion = archive.version(2) < 2; // such a state tells no cones by displacement
+  const bool before_motion = archive.version(2) < 2; // such a state has no cones by displacement
   archive("barrel", barrel_, "1", or_nan());
   archive("peak", peak_, "Pa");
   archive("measured_for", measured_for_, "Pa");

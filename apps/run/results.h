@@ -50,7 +50,7 @@ private:
   double last_ = turn_;                                    // of the last sample that counts
 };
 
-// What cracks told while they came.
+// What was counted while bonds broke.
 struct Emission {
   dem::CrackRose rose;
   std::vector<dem::CrackPulse> pulses;
@@ -66,15 +66,15 @@ public:
   // of the deviator (stress minus confining pressure) along the axis that the test loads (0 x, 1 y, 2 z),
   // from the end of the hydrostatic stage on, as laboratories count them. Damage of the ends and cones are of
   // a specimen that is loaded along z; along another axis they are not measured. What moves with the platens
-  // after the peak is followed where the test tells a pattern.
-  // A peak is the largest deviator of the samples in which the specimen is loaded on, and all that is told of
-  // it is of that sample; a fall shows there too, while the other sides are asked the same.
+  // after the peak is followed where the test has a failure pattern.
+  // A peak is the largest deviator of the samples in which the specimen is loaded on, and all that is
+  // reported of it is of that sample; a fall shows there too, while the other sides are asked the same.
   explicit Results(bool tension = false, const dem::Soundness &soundness = {}, int axis = 2,
-                   bool tells_pattern = true)
+                   bool measures_pattern = true)
       : sign_(tension ? -1.0 : 1.0),
         soundness_(soundness),
         axis_(axis),
-        follows_motion_(tells_pattern && axis == 2) {}
+        follows_motion_(measures_pattern && axis == 2) {}
 
   // Whether add() will measure the pattern with this sample, which needs all of the specimen; else places and
   // broken bonds are enough.
@@ -93,7 +93,7 @@ public:
   double barrel_at_peak() const { return barrel_; }
   const Emission &emission() const { return emission_; }
   // Of each sphere the platen that it has moved with since the peak: 1 bottom, 2 top, 0 neither; all 0 until
-  // the stress has fallen to 0.8 of the peak. Empty where the test tells no pattern.
+  // the stress has fallen to 0.8 of the peak. Empty where the test has no failure pattern.
   std::vector<int> moves_with(const coupling::PlatenTest &problem) const;
 
   // Did the deviator reach its peak while the specimen was loaded on, or only its largest value?

@@ -12,7 +12,6 @@
 #include "apps/output/file_lock.h"
 #include "apps/output/sha256.h"
 #include "apps/output/specimen_csv.h"
-#include "apps/scene/checks.h"
 #include "apps/scene/parameters.h"
 #include "apps/scene/version.h"
 
@@ -66,7 +65,7 @@ std::string fault_of(const fs::path &file, const std::string &recipe) {
   return sum && last == fmt::format("{}{}\n", sum_words, *sum) ? "" : "is not as it was written";
 }
 
-// Nothing where it is not there, or is damaged, which is told.
+// Nothing where it is not there, or is damaged, which is reported.
 std::optional<dem::Specimen> read(const fs::path &file, const std::string &recipe, RunLog &log) {
   std::error_code none;
   if (!fs::exists(fs::symlink_status(file, none))) return std::nullopt;

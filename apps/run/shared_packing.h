@@ -21,8 +21,8 @@ std::string packing_name(const std::string &recipe);
 // The scene's packing as `pack` gives it, to the last bit: from `folder` where one of its recipe is there and
 // is as it was written (its last line is a checksum), else packed, and with `writes` left there. Of several
 // runs that want it at once, on any machine that sees the folder, one packs and the others wait; on a file
-// system without locks each packs. A file that is damaged is told and made anew; one that cannot be kept is
-// told and does no harm.
+// system without locks each packs. A file that is damaged is reported and made anew; one that cannot be kept
+// is reported and does no harm.
 dem::Specimen shared_packing(const Scene &scene, const std::filesystem::path &folder,
                              const std::function<dem::Specimen()> &pack, bool writes, RunLog &log);
 

@@ -17,7 +17,7 @@ Json controls_of_stage(const coupling::PlatenTest &problem, std::size_t stage) {
   return all;
 }
 
-// Null where a checkpoint before this was told says nothing.
+// Null for a checkpoint of an older version, which does not have it.
 Json ended_by(std::size_t stage, const TestRecord &test) {
   const coupling::Program &program = test.problem.program();
   if (stage < program.stages_ended()) {

@@ -1,4 +1,4 @@
-// Where spheres and platens were at the largest stress so far: what cones are told from later.
+// Where spheres and platens were at the largest stress so far: what cones are found from later.
 #pragma once
 
 #include <array>

@@ -27,15 +27,15 @@ public:
   void take(const Figure &figure, Value value) {
     if (!there_) return;
     to_[Json::json_pointer("/" + figure.key)] = value(test_);
-    told_.push_back(figure);
+    evaluated_.push_back(figure);
   }
-  const std::vector<Figure> &told() const { return told_; }
+  const std::vector<Figure> &evaluated() const { return evaluated_; }
 
 private:
   const TestRecord &test_;
   Json &to_;
   bool there_ = true;
-  std::vector<Figure> told_;
+  std::vector<Figure> evaluated_;
 };
 
 constexpr const char *unmeasured = "not measured by this test";
@@ -75,10 +75,10 @@ Json summary_of_run(const std::string &status, const TestRecord &test) {
   Json summary = summary_head(test.scene, app_of(test.problem), status, effects_on(test.scene));
   Evaluation evaluation(test, summary);
   list_figures(evaluation);
-  const Reasons reasons = reasons_against(test, evaluation.told(), summary);
+  const Reasons reasons = reasons_against(test, evaluation.evaluated(), summary);
   for (const auto &[figure, against] : reasons)
     summary[figure] = nullptr;
-  summary["validity"] = validity_of(evaluation.told(), reasons, summary);
+  summary["validity"] = validity_of(evaluation.evaluated(), reasons, summary);
   return summary;
 }
 

@@ -23,7 +23,7 @@ std::size_t bytes_per_bond(const dem::Model &model) {
   return b.table.bytes_per_row() + b.records.bytes_per_row() + sizeof(b.blocks.ends[0]);
 }
 
-bool tells_pattern(const Scene &scene, const coupling::PlatenTest &problem) {
+bool measures_pattern(const Scene &scene, const coupling::PlatenTest &problem) {
   return scene.loading.test == LoadingTest::compression && problem.shape().kind != dem::ShapeKind::disc &&
          !problem.bent() && coupling::loaded_axis(problem) == 2;
 }
@@ -75,7 +75,7 @@ Json TestRecord::stage_seconds() const {
   return stages;
 }
 
-// Of a run that was stopped before its peak nothing is told: the way to it is not known.
+// Of a run that was stopped before its peak nothing is reported: the way to it is not known.
 bool TestRecord::is_slowness_known() const {
   return knows_slowness(peak.reached(), costs.ended_by) &&
          (!std::isnan(slowness.kinetic) || !std::isnan(slowness.wave_transits));
@@ -96,7 +96,7 @@ double TestRecord::moment_over_nominal() const {
   return results.at_peak(&Sample::midspan_moment) / (0.25 * load * problem.three_points().span);
 }
 
-double TestRecord::swings_to_peak() const {
+double TestRecord::oscillations_to_peak() const {
   return problem.bending_period() > 0 ? results.time_at_peak() / problem.bending_period() : not_measured;
 }
 

@@ -31,9 +31,9 @@ struct RunCosts {
 // Bytes of one bond in its columns and in its block.
 std::size_t bytes_per_bond(const dem::Model &model);
 
-// Whether platens press the specimen along its axis until it fails: cones and patterns are told of no other
-// test.
-bool tells_pattern(const Scene &scene, const coupling::PlatenTest &problem);
+// Whether platens press the specimen along its axis until it fails: cones and patterns are reported of no
+// other test.
+bool measures_pattern(const Scene &scene, const coupling::PlatenTest &problem);
 
 struct TestRecord {
   TestRecord(const Scene &scene, const coupling::PlatenTest &problem, const Results &results,
@@ -70,12 +70,12 @@ struct TestRecord {
   bool is_slowness_known() const;
   std::vector<std::string> signs_of_haste() const; // none where that is not known
 
-  // Of a bent bar. Poisson's ratio is of the share of shear in a deflection, which the bar does not tell:
+  // Of a bent bar. Poisson's ratio is of the share of shear in a deflection, which the bar does not show:
   // between 0.1 and 0.3 the share changes by a sixth.
   static constexpr double assumed_poisson_ratio = 0.2;
-  double flexural_modulus() const;    // Pa
-  double moment_over_nominal() const; // moment at mid-span over P L / 4
-  double swings_to_peak() const;      // how often it could have swung until the peak
+  double flexural_modulus() const;     // Pa
+  double moment_over_nominal() const;  // moment at mid-span over P L / 4
+  double oscillations_to_peak() const; // how often it could have swung until the peak
   double cracks_near_midspan() const;
 
   // Of the state at 0.8 of the peak, or of the last one.
@@ -84,7 +84,7 @@ struct TestRecord {
     return failure(last).dead[static_cast<std::size_t>(end)];
   }
   bool has_failure(bool last) const { return !std::isnan(failure(last).broken_share); }
-  bool has_pattern(bool last) const { return tells_pattern(scene, problem) && has_failure(last); }
+  bool has_pattern(bool last) const { return measures_pattern(scene, problem) && has_failure(last); }
   bool has_emission() const;
   std::string word_of_pattern(bool last) const;
   std::vector<std::string> reasons_of_pattern(

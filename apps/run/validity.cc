@@ -23,7 +23,7 @@ constexpr std::size_t fewest_to_modulus = 3, fewest_to_peak = 8;
 // directions: a lattice has twice that mean along its bonds. Grains that touch without a bond add a little,
 // and the middle of a specimen is not its mean.
 constexpr double most_over_affine = 1.2;
-// Without a peak a modulus is told of an elastic specimen alone. Of the energy in the bonds:
+// Without a peak only an elastic specimen has a modulus. Of the energy in the bonds:
 constexpr double most_plastic = 0.01;
 // Twelve numbers are fitted to the motion of the gauge's spheres, three of each.
 constexpr std::size_t fewest_in_gauge = 12;
@@ -160,7 +160,7 @@ bool has_fallen(Test t) {
 }
 Words against_cone(Test t, dem::End end) {
   const dem::DeadZone &zone = t.dead_zone(false, end);
-  return when(tells_pattern(t.scene, t.problem) && has_fallen(t) && !zone.is_cone(), cone_words(zone));
+  return when(measures_pattern(t.scene, t.problem) && has_fallen(t) && !zone.is_cone(), cone_words(zone));
 }
 
 // What speaks against all figures that need one of these.
@@ -205,12 +205,12 @@ const std::vector<Reason> reasons{
     {gauge, against_gauge},
     {compressed,
      [](Test t) {
-       return when(!tells_pattern(t.scene, t.problem),
+       return when(!measures_pattern(t.scene, t.problem),
                    "ends and cones are told of cylinders and boxes that are compressed along z");
      }},
     {damage,
      [](Test t) {
-       return when(tells_pattern(t.scene, t.problem) && !has_fallen(t),
+       return when(measures_pattern(t.scene, t.problem) && !has_fallen(t),
                    "the stress has not fallen to 0.8 of its peak");
      }},
     {top_cone, [](Test t) { return against_cone(t, dem::top_end); }},

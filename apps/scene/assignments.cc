@@ -177,7 +177,7 @@ void PrmReader::include(const std::string &file) {
   if (file.empty()) return broken("\"include\" needs the name of a file.");
   if (origin_.depth >= deepest_include) return broken(what + "files include each other without end.");
   if (++included_ > most_includes) {
-    if (included_ == most_includes + 1) // told once
+    if (included_ == most_includes + 1) // reported once
       broken(what + "more than " + std::to_string(most_includes) +
              " files are included, those that are included again counted again. Allowed: up to that.");
     return;

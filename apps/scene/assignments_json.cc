@@ -82,14 +82,14 @@ private:
 
   const std::string &text_;
   std::istringstream stream_;
-  std::size_t counted_ = 0; // bytes, of which line_ tells the end
+  std::size_t counted_ = 0; // bytes whose lines are counted in line_
   int line_ = 1;
   const std::string &name_;
   FileText &to_;
   std::vector<Level> levels_; // one for each object that is open
 };
 
-// An object with a "value" is an entry; what else it holds is told for people.
+// An object with a "value" is an entry; its other members are for readers.
 bool JsonReader::end_object() {
   const std::size_t first = levels_.back().first;
   levels_.pop_back();

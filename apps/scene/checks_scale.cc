@@ -21,13 +21,13 @@ constexpr double slowest_wave = 1e-3, fastest_wave = 4e4;
 constexpr double softest_body = 1e-6;      // modulus over that of bonds: rubber beside concrete has 1e-4
 constexpr double widest_strip = 0.3;       // of a disc's diameter
 constexpr double most_of_wave_speed = 0.1; // of a platen; above it nothing is in equilibrium anywhere
-// Steps of a test that it can be told by, and that a machine can make.
+// Steps of a test: enough to see something, and no more than a machine can make.
 constexpr double fewest_steps = 100, most_steps = 1e12;
 // Time step over the time that a wave takes across a radius: 0.1 to 0.6 of packings with linear contacts.
 constexpr double smallest_step = 0.03, largest_step = 1;
 // Strength over modulus: strain at which a bond breaks.
 constexpr double least_strain_at_break = 1e-9, most_strain_at_break = 1;
-// Over the modulus: the specimen would lose a tenth of its size; or nothing that a test could tell.
+// Over the modulus: the specimen would lose a tenth of its size; or nothing that a test could show.
 constexpr double most_pressure = 0.1, least_pressure = 1e-9;
 
 std::string number(double value) {
@@ -69,7 +69,7 @@ void SceneCheck::proportions() const {
     refuse("Platens/Thickness", "is more than a hundred times the specimen's size. Allowed: up to that.");
 }
 
-// m/s, along a chain of bonds with what makes masses larger; not a number where the scene does not tell.
+// m/s, along a chain of bonds with what makes masses larger; not a number where the scene does not give it.
 double SceneCheck::wave_speed() const {
   if (!scene_.bond.bonded()) return not_given;
   return std::sqrt(scene_.model.bond_layout.modulus / (scene_.model.density * scene_.model.mass_scaling));
@@ -83,10 +83,10 @@ void SceneCheck::waves() const {
     refuse(pair, "does not go with " + set_to(other) + ": waves would run at " + number(speed) +
                      " m/s. Allowed: " + number(slowest_wave) + " ... " + number(fastest_wave) + " m/s.");
   const double rate = scene_.loading.rate * scene_.loading.rate_multiplier;
-  const std::string hurried =
+  const std::string multiplied =
       scene_.loading.rate_multiplier > 1 ? "with " + set_to("Loading/Hurry") + " " : "";
   if (loads() && rate > most_of_wave_speed * speed)
-    refuse("Loading/Axial rate", hurried + "is " + number(rate / speed) + " times the speed of waves, " +
+    refuse("Loading/Axial rate", multiplied + "is " + number(rate / speed) + " times the speed of waves, " +
                                      number(speed) + " m/s by " + set_to("Bond/Modulus") + " and " +
                                      set_to("Material/Density") + ". Allowed: up to " +
                                      number(most_of_wave_speed) + " times.");

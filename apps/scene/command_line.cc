@@ -188,4 +188,14 @@ CommandLine read_command_line(int argc, const char *const *argv, const Program &
   return line;
 }
 
+std::string shell_command(const std::string &program, const CommandLine &line, const std::string &but) {
+  std::string text = program;
+  for (const std::string &word : {line.kind, line.scene, std::string("-o"), line.output})
+    if (!word.empty()) text += " " + shell_word(word);
+  for (const std::string &assignment : line.overrides)
+    if (but.empty() || assignment.find_first_not_of(" \t") != assignment.find(but))
+      text += shell_entry(assignment);
+  return text;
+}
+
 } // namespace platen::apps

@@ -35,6 +35,10 @@ struct PrintAndExit {
 // Throws InputError for a bad command line, PrintAndExit for --help and --version.
 CommandLine read_command_line(int argc, const char *const *argv, const Program &program);
 
+// The program on the same scene, output folder and entries as it was called with, but for an entry that is to
+// be another, as a shell takes it.
+std::string shell_command(const std::string &program, const CommandLine &line, const std::string &but = "");
+
 // The work of an app; returns the exit status.
 using AppBody = std::function<int(const CommandLine &, const Scene &)>;
 

@@ -39,7 +39,7 @@ bool has_word(const Parameters &parameters, const std::string &path, const std::
 
 Declared &Declared::only_if(const std::string &path, const std::vector<std::string> &words) {
   if (section_of(path) == section_of(entry_->path))
-    told(path.substr(path.rfind('/') + 1) + " = " + joined(words));
+    remark(path.substr(path.rfind('/') + 1) + " = " + joined(words));
   entry_->idle.push_back([path, words](const Situation &s) {
     return has_word(s.parameters, path, words) ? "" : path + " is not " + alternatives(words);
   });
@@ -85,12 +85,12 @@ Declared &Declared::or_word(const std::string &word, const Range &otherwise) {
   return *this;
 }
 
-Declared &Declared::says(const std::string &documentation) {
+Declared &Declared::documented(const std::string &documentation) {
   entry_->documentation = documentation;
   return *this;
 }
 
-Declared &Declared::told(const std::string &text) {
+Declared &Declared::remark(const std::string &text) {
   std::string &sentence = entry_->documentation;
   const auto ends = [&](const std::string &with) {
     return sentence.size() > with.size() &&

@@ -63,9 +63,9 @@ public:
   // given that number holds too, but there is no default.
   Declared &or_word(const std::string &word, const Range &otherwise);
   // Takes the place of the documentation.
-  Declared &says(const std::string &documentation);
+  Declared &documented(const std::string &documentation);
   // Ends the documentation with " (text).".
-  Declared &told(const std::string &text);
+  Declared &remark(const std::string &text);
   // The member of the library's struct that it sets.
   Declared &member(const std::string &path); // "loading.ramp"
   // One of a few words.

@@ -1,4 +1,4 @@
-// The kinds of failure that an app tells apart by its exit status (docs: exit status of the apps).
+// The kinds of failure that differ in the exit status of an app (docs: exit status of the apps).
 #pragma once
 
 #include <stdexcept>

@@ -7,7 +7,7 @@
 namespace platen::apps {
 namespace {
 
-constexpr std::size_t most_told = 20;
+constexpr std::size_t most_reported = 20;
 
 // What stands on no line of its file comes after all that does.
 std::tuple<std::size_t, int> place_of(const Origin &origin, const std::vector<std::string> &files) {
@@ -50,9 +50,10 @@ std::vector<EntryError> Faults::sorted(const std::vector<std::string> &files) co
 std::string Faults::text(const std::vector<std::string> &files) const {
   const std::vector<EntryError> told = sorted(files);
   std::string text;
-  for (std::size_t k = 0; k < std::min(told.size(), most_told); ++k)
+  for (std::size_t k = 0; k < std::min(told.size(), most_reported); ++k)
     text += (k == 0 ? "" : "\n") + std::string(told[k].what());
-  if (told.size() > most_told) text += "\n... and " + std::to_string(told.size() - most_told) + " more";
+  if (told.size() > most_reported)
+    text += "\n... and " + std::to_string(told.size() - most_reported) + " more";
   return text;
 }
 

@@ -1,4 +1,4 @@
-// All that is wrong with a scene, told at once.
+// All faults of a scene, reported together.
 #pragma once
 
 #include <string>

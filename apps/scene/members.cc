@@ -30,7 +30,7 @@ Declared LawMembers::operator()(const std::string &member) {
   Declared declared = section_.at(key);
   if (having.size() == dem::BondLaws::size) return declared.unless("Effects/Bond", {"none"});
   declared.only_if("Effects/Bond", having);
-  return section_.name() == "Effects" ? declared : declared.told(joined(having)); // said already
+  return section_.name() == "Effects" ? declared : declared.remark(joined(having)); // said already
 }
 
 void LawMembers::rest() {

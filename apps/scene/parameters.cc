@@ -1,6 +1,7 @@
 #include "apps/scene/parameters.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <stdexcept>
 
@@ -14,6 +15,11 @@ std::string limits(const Entry &entry) {
   if (!entry.unit.empty() && entry.unit != "1") text += (text.empty() ? "in " : " ") + entry.unit;
   if (!entry.default_text.empty()) text += (text.empty() ? "default " : ", default ") + entry.default_text;
   return text;
+}
+
+std::string resolved_path(const Entry &entry) {
+  if (entry.text.empty() || entry.origin.line == 0) return entry.text;
+  return (std::filesystem::path(entry.origin.file).parent_path() / entry.text).string();
 }
 
 Entry &Parameters::declare(Entry entry) {

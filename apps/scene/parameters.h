@@ -47,6 +47,10 @@ struct Entry {
 // What an entry allows, with unit and default: "0 ... 5, default 0.5"; "" where anything goes.
 std::string limits(const Entry &entry);
 
+// The path of a file entry as the program can open it: relative to the folder of the file that sets it, or,
+// from the command line, to the current folder.
+std::string resolved_path(const Entry &entry);
+
 class Parameters {
 public:
   // Declares an entry and reads its default. A path is "Section/Key" or "Section/Subsection/Key".
@@ -99,7 +103,7 @@ public:
   // With every member in backquotes replaced by its entry.
   std::string with_entries(const std::string &message) const;
 
-  // Keeps what f() refuses, to be told together. Whether it was not refused.
+  // Keeps what f() refuses, so that all faults are reported together. True where nothing was refused.
   template <class F>
   bool attempt(const F &f) {
     try {
@@ -110,7 +114,7 @@ public:
       return false;
     }
   }
-  // Whether all files could be read: if not, what a scene lacks cannot be told.
+  // Whether all files could be read: if not, nobody knows what a scene lacks.
   bool whole() const { return whole_; }
   const Faults &faults() const { return faults_; }
   // Adds what was found by checks, but for what follows from another fault: of an entry that has one, or with
@@ -155,7 +159,7 @@ private:
   std::vector<std::string> foreign_; // sections
   Faults faults_;
   bool whole_ = true;
-  std::string passed_over_; // a section that is not known: what it holds is not told
+  std::string passed_over_; // a section that is not known: what it holds is not reported
 };
 
 } // namespace platen::apps

@@ -1,10 +1,10 @@
 // Values of a scene that a number alone does not state.
 #pragma once
 
-#include <vector>
-
+#include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "base/describe.h"
 #include "dem/laws/contact_settings.h"
@@ -20,6 +20,19 @@ struct Interval {
 
 using dem::Gap;
 using dem::Stiffness;
+
+// One expected number: low <= summary.json's key <= high; the open side of a one-sided range is infinite. Or
+// an expected word: one of `words`.
+struct Expectation {
+  std::string key;                // a key of summary.json; `cone_top/height_m` is a member of an object
+  std::vector<std::string> words; // empty of a number
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  std::string text;   // range or words as they stand in the scene
+  std::string unit;   // of the range, "MPa"; "" where it is in SI
+  double of_unit = 1; // of one of that unit, SI
+  std::string origin; // "case.prm:31"
+};
 
 // The first word of a value. Throws std::logic_error for one that has none.
 template <class Enum>

@@ -47,14 +47,14 @@ void require_one_process(const std::string &app) {
       "several ranks, where they were built with MPI.");
 }
 
-void before_telling_a_failure() {
+void before_reporting_a_failure() {
   constexpr std::chrono::seconds patience{5};
   if (!this_rank().is_silent()) return;
-  std::this_thread::sleep_for(patience); // what fails on all is told by the first
+  std::this_thread::sleep_for(patience); // the first reports what fails on all
   std::cerr << "rank " << this_rank().number << ": ";
 }
 
-void after_telling_a_failure(int status) {
+void after_reporting_a_failure(int status) {
   constexpr std::chrono::milliseconds head_start{
       200}; // before what a launcher says of it, which goes another way
   if (this_rank().of == 1) return;

@@ -20,12 +20,12 @@ Rank &this_rank();
 bool launched_with_others();
 
 // Throws InputError where mpirun has started several processes of an app that runs in one. The first of them
-// tells it.
+// reports it.
 void require_one_process(const std::string &app);
 
-// A failure of this rank alone, or of all of them: the first tells it, another one waits a moment for that;
+// A failure of this rank alone, or of all of them: the first reports it, another one waits a moment for that;
 // then all are ended with this status, for they may be waiting for each other. Nothing on one rank.
-void before_telling_a_failure();
-void after_telling_a_failure(int status);
+void before_reporting_a_failure();
+void after_reporting_a_failure(int status);
 
 } // namespace platen::apps

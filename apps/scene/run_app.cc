@@ -34,11 +34,11 @@ std::string printable(std::string text) {
   return text;
 }
 
-int tell(const std::string &message, int status) {
-  before_telling_a_failure();
+int report(const std::string &message, int status) {
+  before_reporting_a_failure();
   std::cout.flush();
   std::cerr << printable(plain(message)) << '\n';
-  after_telling_a_failure(status);
+  after_reporting_a_failure(status);
   return status;
 }
 
@@ -85,7 +85,7 @@ int run(const CommandLine &line, const Program &program, const AppBody &body) {
   }
 }
 
-// What `act` returns, or the status of what it throws, which is told.
+// What `act` returns, or the status of what it throws, which is reported.
 int with_status(const std::function<int()> &act) {
   try {
     return act();
@@ -93,18 +93,18 @@ int with_status(const std::function<int()> &act) {
     if (!this_rank().is_silent()) std::cout << asked.text;
     return status_done;
   } catch (const InputError &error) {
-    return tell(error.what(), status_bad_input);
+    return report(error.what(), status_bad_input);
   } catch (const OutputError &error) {
-    return tell(std::string("error: ") + error.what(), status_output);
+    return report(std::string("error: ") + error.what(), status_output);
   } catch (const std::filesystem::filesystem_error &error) {
-    return tell(std::string("error: ") + error.what(), status_output);
+    return report(std::string("error: ") + error.what(), status_output);
   } catch (const std::invalid_argument &error) {
-    return tell(std::string("error: ") + error.what(), status_bad_input);
+    return report(std::string("error: ") + error.what(), status_bad_input);
   } catch (const std::bad_alloc &) {
-    return tell("error: the memory is used up; a smaller specimen or larger spheres need less",
-                status_numerics);
+    return report("error: the memory is used up; a smaller specimen or larger spheres need less",
+                  status_numerics);
   } catch (const std::exception &error) {
-    return tell(std::string("error: ") + error.what(), status_numerics);
+    return report(std::string("error: ") + error.what(), status_numerics);
   }
 }
 

@@ -41,19 +41,6 @@ struct Checkpoint {
   Interval every{Interval::Kind::time, 600}; // time: s of wall clock; none: no checkpoints
 };
 
-// One expected number: low <= summary.json's key <= high; the open side of a one-sided range is infinite. Or
-// an expected word: one of `words`.
-struct Expectation {
-  std::string key;                // a key of summary.json; `cone_top/height_m` is a member of an object
-  std::vector<std::string> words; // empty of a number
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  std::string text;   // range or words as they stand in the scene
-  std::string unit;   // of the range, "MPa"; "" where it is in SI
-  double of_unit = 1; // of one of that unit, SI
-  std::string origin; // "case.prm:31"
-};
-
 struct Scene {
   std::string name = "default"; // file name without its ending
   std::string path;             // as given on the command line
@@ -109,6 +96,11 @@ Scene read_scene(const std::string &path, const std::vector<std::string> &overri
 // All parameters as used, defaults included, as a .prm that reads back to the same numbers bit for bit; paths
 // of files are written so that they hold from `folder`, where the text will lie.
 std::string scene_text(const Scene &scene, const std::filesystem::path &folder);
+
+// The text of a scene that scene_text gave for `folder`, as this program writes it: entries that it lacks,
+// because the program that wrote it had none, stand there with their defaults. As it is where it cannot be
+// read.
+std::string completed_scene_text(const std::string &path, const std::string &folder, const Program &program);
 
 // Every parameter that a program reads with value, default, unit, range and meaning: as .prm, or as JSON
 // (readable as a scene too). `part` is a section or an entry that is printed alone, "" all. Throws InputError

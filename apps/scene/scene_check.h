@@ -70,4 +70,7 @@ private:
   Faults &found_;
 };
 
+// Contradictions and what is missing, with their places; adds to scene.notes.
+Faults check_scene(Scene &scene, const Parameters &parameters, const Program &program);
+
 } // namespace platen::apps

@@ -16,11 +16,6 @@ namespace platen::apps {
 // What a platen's face is (apps/scene/surfaces.h); common: of one platen, what both are.
 enum class SurfaceKind { common, custom, dry_steel, thesis, teflon, grease, brush, rubber_sheet, glued };
 
-struct StudySurface { // a word, or a coefficient of friction
-  SurfaceKind kind = SurfaceKind::custom;
-  double friction = not_given; // static and dynamic; not given: what the word says
-};
-
 struct Face { // of one platen
   SurfaceKind surface = SurfaceKind::common;
   std::string mesh_file; // Gmsh; empty: a plate

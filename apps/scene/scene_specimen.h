@@ -44,10 +44,6 @@ struct SpecimenSection {
   double width() const { return shape == SpecimenShape::box ? std::min(width_x, width_y) : 2 * radius; }
 };
 
-struct DomainSize {              // of a cylinder
-  double height = 0, radius = 0; // m
-};
-
 struct Effects { // the others stand in dem::ModelSettings, ContactSettings and Bond
   std::optional<dem::NormalContact> contact = dem::NormalContact::linear;
   bool gravity = false;

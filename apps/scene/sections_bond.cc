@@ -1,5 +1,7 @@
-// What holds grains together, and the phases that tell bonds apart. Keys stand in the order of scenes as they
+// What holds grains together, and the phases by which bonds differ. Keys stand in the order of scenes as they
 // are written.
+#include <algorithm>
+
 #include "apps/scene/members.h"
 #include "apps/scene/sections.h"
 
@@ -10,6 +12,21 @@ namespace {
 std::string needed_by_bonds(const Situation &s, const char *path) {
   const bool needed = s.scene.bond.bonded() && s.program.bonds && !s.given_by_program(path);
   return needed ? std::string("Effects/Bond is ") + s.scene.bond.word() + "." : "";
+}
+
+// "elastic, tension": words of calibrated_figures, each once; "" is none.
+std::vector<CalibratedFigure> read_calibrated_figures(const std::string &text) {
+  std::vector<std::string> words;
+  for (const auto &one : calibrated_figures)
+    words.push_back(one.first);
+  std::vector<CalibratedFigure> so_far;
+  return read_items<CalibratedFigure>(text, [&](const std::string &item) {
+    const CalibratedFigure figure = calibrated_figures[read_word(item, words)].second;
+    if (std::find(so_far.begin(), so_far.end(), figure) != so_far.end())
+      throw ValueError("stands there twice");
+    so_far.push_back(figure);
+    return figure;
+  });
 }
 
 void declare_calibrated(Section &section, CalibratedFor &calibrated) {
@@ -40,8 +57,8 @@ void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model)
   layout("modulus").needed_if([](const Situation &s) { return needed_by_bonds(s, "Bond/Modulus"); });
   for (const char *member : {"stiffness_ratio", "poisson_ratio"})
     law(member);
-  law("tensile_strength").says("Stress at which it breaks in tension.");
-  law("shear_strength").says("Its cohesion: shear stress at which it breaks without compression.");
+  law("tensile_strength").documented("Stress at which it breaks in tension.");
+  law("shear_strength").documented("Its cohesion: shear stress at which it breaks without compression.");
   for (const char *key : {"Tensile strength", "Shear strength"})
     section.at(key)
         .needed_if([](const Situation &s) { return needed_by_bonds(s, "Bond/Tensile strength"); })
@@ -82,7 +99,7 @@ void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model)
       bond.size)
       .rest();
   declare_calibrated(section, bond.calibrated);
-  layout("interaction_range").only_if("Effects/Bond", by_range).told(joined(by_range));
+  layout("interaction_range").only_if("Effects/Bond", by_range).remark(joined(by_range));
   layout("area_factor");
   layout.rest();
   law.rest();

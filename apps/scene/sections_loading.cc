@@ -33,7 +33,9 @@ void declare_friction(Section &section, dem::SurfaceFriction &friction, const st
   of("slip_velocity").only_if(weakens(By::velocity), "no Friction law is velocity weakening");
   if (of_all) return;
   for (const char *name : {"friction_static", "friction_dynamic", "slip_length", "slip_velocity"})
-    section.at(key_of(name)).says("As Platens/" + key_of(name) + " where not given.").member(member + name);
+    section.at(key_of(name))
+        .documented("As Platens/" + key_of(name) + " where not given.")
+        .member(member + name);
   section.at("Friction law").member(member + "friction_law");
 }
 
@@ -159,7 +161,7 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
                    s.used_by_program("Platens/Strip width");
           },
           "only platen-brazilian and three point bending have strips");
-  of("span").only_if("Loading/Test", {"three point bending"}).told("Test = three point bending");
+  of("span").only_if("Loading/Test", {"three point bending"}).remark("Test = three point bending");
   for (const char *member : {"thickness", "elements_across", "density"})
     of(member);
   of("young_modulus").unless("Platens/Kind", {"rigid"});
@@ -186,7 +188,7 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
   Members control(top, loading);
   control("servo", "Control");
   Members(top, static_cast<coupling::PlatenSettings &>(platens))("spherical_seat", "Seat");
-  control("top_stress", "Stress").unless("Platens/Top/Control", {"motion"}).told("Control = stress");
+  control("top_stress", "Stress").unless("Platens/Top/Control", {"motion"}).remark("Control = stress");
   declare_own_layers(top, coupling::Side::top, platens.top_layers);
   declare_side(bottom, platens, coupling::Side::bottom);
   declare_own_layers(bottom, coupling::Side::bottom, platens.bottom_layers);

@@ -4,8 +4,6 @@
 #include <string>
 #include <string_view>
 
-#include "apps/scene/command_line.h"
-
 namespace platen::apps {
 
 // One word of a command line: as it is where no shell sees more in it, else in single quotes.
@@ -22,19 +20,6 @@ inline std::string shell_word(const std::string &text) {
 // An entry that a command line sets: " -s 'Bond/Gap = 0.05 R_min'".
 inline std::string shell_entry(const std::string &assignment) {
   return " -s " + shell_word(assignment);
-}
-
-// The program on the same scene, output folder and entries as it was called with, but for an entry that is to
-// be another.
-inline std::string shell_command(const std::string &program, const CommandLine &line,
-                                 const std::string &but = "") {
-  std::string text = program;
-  for (const std::string &word : {line.kind, line.scene, std::string("-o"), line.output})
-    if (!word.empty()) text += " " + shell_word(word);
-  for (const std::string &assignment : line.overrides)
-    if (but.empty() || assignment.find_first_not_of(" \t") != assignment.find(but))
-      text += shell_entry(assignment);
-  return text;
 }
 
 } // namespace platen::apps

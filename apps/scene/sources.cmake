@@ -16,8 +16,8 @@ set(PLATEN_SCENE_SOURCES
   scene/sections_stages.cc
   scene/assignments.cc
   scene/assignments_json.cc
-  scene/parameter_writer.cc
-  scene/checks.cc
+  scene/scene_writer.cc
+  scene/scene_check.cc
   scene/checks_bond.cc
   scene/checks_loading.cc
   scene/checks_notes.cc
@@ -25,7 +25,7 @@ set(PLATEN_SCENE_SOURCES
   scene/checks_specimen.cc
   scene/program.cc
   scene/quality.cc
-  scene/scene.cc
+  scene/scene_reader.cc
   scene/settings.cc
   scene/scene_bond.cc
   scene/scene_stages.cc

@@ -1,6 +1,7 @@
 #include "apps/scene/surfaces.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "apps/scene/parameters.h"
 #include "apps/scene/units.h"
@@ -85,6 +86,21 @@ std::string surface_documentation() {
   return text + ".";
 }
 
+std::vector<StudySurface> read_surfaces(const std::string &text) {
+  return read_items<StudySurface>(text, [](const std::string &item) -> StudySurface {
+    const bool number = item.find_first_of("0123456789.") == 0;
+    if (number) return {SurfaceKind::custom, read_quantity(item, "1", between(0, 5))};
+    std::vector<std::string> words;
+    for (const Surface &one : surfaces())
+      words.push_back(one.word);
+    return {surfaces()[read_word(item, words)].kind, not_given};
+  });
+}
+
+std::string text_of(const StudySurface &surface) {
+  return std::isnan(surface.friction) ? apps::surface(surface.kind).word : shortest_text(surface.friction);
+}
+
 std::string text_of(const Platens &platens) {
   using By = dem::Weakening::By;
   const auto kind = [&](const Face &face) {
@@ -99,7 +115,8 @@ std::string text_of(const Platens &platens) {
       text += ", velocity weakening over " + shortest_text(side.weakening.slip_velocity) + " m/s";
     return platens.glued ? std::string("glued") : text;
   };
-  std::vector<std::pair<std::string, std::vector<std::string>>> alike; // what is told, of which sides
+  std::vector<std::pair<std::string, std::vector<std::string>>>
+      alike; // a description, and the sides that have it
   for (const coupling::Side side : sides_of_scene) {
     if (!platens.has(side)) continue;
     const std::string text = told(platens.face(side), platens.at(side));

@@ -12,6 +12,11 @@ namespace platen::apps {
 
 class Parameters;
 
+struct StudySurface { // a word, or a coefficient of friction
+  SurfaceKind kind = SurfaceKind::custom;
+  double friction = not_given; // static and dynamic; not given: what the word says
+};
+
 struct Surface {
   SurfaceKind kind;
   std::string word;
@@ -28,6 +33,10 @@ const Surface &surface(SurfaceKind kind);
 std::vector<std::pair<std::string, SurfaceKind>> surface_words(bool of_one_side);
 // A line for each word: its entries and their source.
 std::string surface_documentation();
+
+// "dry steel, 0.1": words of Platens/Surface, or coefficients of friction; "" is none. Throws ValueError.
+std::vector<StudySurface> read_surfaces(const std::string &text);
+std::string text_of(const StudySurface &surface);
 
 // For the screen, a line each, indented: what the platens are, with friction as used; what the words say.
 std::string text_of(const Platens &platens);

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/scene/surfaces.h"
-
 namespace platen::apps {
 namespace {
 
@@ -13,25 +11,6 @@ constexpr double most_gap = 1;
 // A stiffness over that of bonds, or of grains, within which a time step still follows both.
 const Range multiples = between(1e-6, 1e6);
 constexpr double largest_whole_number = 9007199254740992.0; // 2^53: beyond it doubles skip whole numbers
-
-// What stands between commas, each piece read by read(piece); "" is no piece.
-template <class Value, class Read>
-std::vector<Value> read_items(const std::string &text, const Read &read) {
-  std::vector<Value> values;
-  if (text.empty()) return values;
-  for (std::size_t first = 0; first <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', first), text.size());
-    const std::string item = tidy(text.substr(first, comma - first));
-    try {
-      if (item.empty()) throw ValueError("is empty");
-      values.push_back(read(item));
-    } catch (const ValueError &error) {
-      throw ValueError("holds an item, \"" + item + "\", that " + error.what());
-    }
-    first = comma + 1;
-  }
-  return values;
-}
 
 } // namespace
 
@@ -87,65 +66,6 @@ Stiffness read_stiffness(const std::string &text, bool bulk_allowed) {
 
 std::vector<double> read_list(const std::string &text, const Quantity &each) {
   return read_items<double>(text, [&](const std::string &item) { return each.read(item); });
-}
-
-std::vector<Gap> read_gaps(const std::string &text) {
-  return read_items<Gap>(text, read_gap);
-}
-
-std::vector<DomainSize> read_domains(const std::string &text) {
-  return read_items<DomainSize>(text, [](const std::string &item) -> DomainSize {
-    const std::string between_both = " x ";
-    const std::size_t sign = item.find(between_both);
-    if (sign == std::string::npos) throw ValueError("is no pair: \"height x radius\" is");
-    const std::string height = item.substr(0, sign), radius = item.substr(sign + between_both.size());
-    if (height.empty() || radius.empty()) throw ValueError("is half a pair");
-    return {read_quantity(height, "m", above(0)), read_quantity(radius, "m", above(0))};
-  });
-}
-
-std::vector<StudySurface> read_surfaces(const std::string &text) {
-  return read_items<StudySurface>(text, [](const std::string &item) -> StudySurface {
-    const bool number = item.find_first_of("0123456789.") == 0;
-    if (number) return {SurfaceKind::custom, read_quantity(item, "1", between(0, 5))};
-    std::vector<std::string> words;
-    for (const Surface &one : surfaces())
-      words.push_back(one.word);
-    return {surfaces()[read_word(item, words)].kind, not_given};
-  });
-}
-
-std::vector<Quality> read_qualities(const std::string &text) {
-  std::vector<std::string> words;
-  for (const QualityWord &one : quality_words())
-    words.push_back(one.word);
-  return read_items<Quality>(
-      text, [&](const std::string &item) { return quality_words()[read_word(item, words)].kind; });
-}
-
-std::vector<CalibratedFigure> read_calibrated_figures(const std::string &text) {
-  std::vector<std::string> words;
-  for (const auto &one : calibrated_figures)
-    words.push_back(one.first);
-  std::vector<CalibratedFigure> so_far;
-  return read_items<CalibratedFigure>(text, [&](const std::string &item) {
-    const CalibratedFigure figure = calibrated_figures[read_word(item, words)].second;
-    if (std::find(so_far.begin(), so_far.end(), figure) != so_far.end())
-      throw ValueError("stands there twice");
-    so_far.push_back(figure);
-    return figure;
-  });
-}
-
-std::vector<std::string> read_assignments(const std::string &text) {
-  return read_items<std::string>(text, [](const std::string &item) {
-    const std::size_t sign = item.find('=');
-    if (sign == std::string::npos) throw ValueError("sets nothing: \"Section/Key = value\" does");
-    const std::string path = tidy(item.substr(0, sign)), value = tidy(item.substr(sign + 1));
-    if (path.find('/') == std::string::npos) throw ValueError("names no entry: \"Section/Key = value\" does");
-    if (value.empty()) throw ValueError("has no value");
-    return path + " = " + value;
-  });
 }
 
 Expectation read_expectation(const std::string &text, const std::string &si_unit, const Quantity &each) {
@@ -206,11 +126,6 @@ std::string text_of(const Stiffness &stiffness) {
                      : stiffness.kind == Stiffness::Kind::of_bulk ? " bulk"
                                                                   : "";
   return shortest_text(stiffness.value) + unit;
-}
-
-std::string text_of(const StudySurface &surface) {
-  return std::isnan(surface.friction) ? platen::apps::surface(surface.kind).word
-                                      : shortest_text(surface.friction);
 }
 
 } // namespace platen::apps

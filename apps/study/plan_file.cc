@@ -13,7 +13,7 @@
 #include "apps/run/app_output.h"
 #include "apps/run/changed_scene.h"
 #include "apps/run/needs.h"
-#include "apps/scene/scene_files.h"
+#include "apps/scene/scene_writer.h"
 #include "apps/scene/version.h"
 
 namespace platen::apps {

@@ -3,13 +3,52 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/scene/checks.h"
 #include "apps/scene/members.h"
+#include "apps/scene/parameters.h"
 #include "apps/scene/scene_check.h"
 #include "apps/scene/units.h"
+#include "apps/scene/values.h"
 
 namespace platen::apps {
 namespace {
+
+// "72 mm x 22.5 mm, 65 mm x 20 mm": heights and radii; "" is none.
+std::vector<DomainSize> read_domains(const std::string &text) {
+  return read_items<DomainSize>(text, [](const std::string &item) -> DomainSize {
+    const std::string between_both = " x ";
+    const std::size_t sign = item.find(between_both);
+    if (sign == std::string::npos) throw ValueError("is no pair: \"height x radius\" is");
+    const std::string height = item.substr(0, sign), radius = item.substr(sign + between_both.size());
+    if (height.empty() || radius.empty()) throw ValueError("is half a pair");
+    return {read_quantity(height, "m", above(0)), read_quantity(radius, "m", above(0))};
+  });
+}
+
+// "0.05 R_min, 0.1 mm"; "" is no gap.
+std::vector<Gap> read_gaps(const std::string &text) {
+  return read_items<Gap>(text, read_gap);
+}
+
+// "fast, standard": words of Scene/Quality; "" is none.
+std::vector<Quality> read_qualities(const std::string &text) {
+  std::vector<std::string> words;
+  for (const QualityWord &one : quality_words())
+    words.push_back(one.word);
+  return read_items<Quality>(
+      text, [&](const std::string &item) { return quality_words()[read_word(item, words)].kind; });
+}
+
+// "Effects/Rotation = off, Platens/Degree = 2": path and value of each, tidied; "" is none.
+std::vector<std::string> read_assignments(const std::string &text) {
+  return read_items<std::string>(text, [](const std::string &item) {
+    const std::size_t sign = item.find('=');
+    if (sign == std::string::npos) throw ValueError("sets nothing: \"Section/Key = value\" does");
+    const std::string path = tidy(item.substr(0, sign)), value = tidy(item.substr(sign + 1));
+    if (path.find('/') == std::string::npos) throw ValueError("names no entry: \"Section/Key = value\" does");
+    if (value.empty()) throw ValueError("has no value");
+    return path + " = " + value;
+  });
+}
 
 // What trades accuracy for time: each list is run alone, all else as the scene has it.
 void declare_accuracy_lists(Section &section, Study &study) {

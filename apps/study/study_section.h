@@ -7,6 +7,7 @@
 
 #include "apps/scene/program.h"
 #include "apps/scene/scene.h"
+#include "apps/scene/surfaces.h"
 
 namespace platen::apps {
 
@@ -25,6 +26,10 @@ struct StudyTarget { // study of a target: an accuracy that is ordered
   int most_runs = 200;
   double step_allowance = 0.002; // relative error of the figure
   int step_seeds = 0, coarser_seeds = 0;
+};
+
+struct DomainSize {              // of a cylinder
+  double height = 0, radius = 0; // m
 };
 
 struct Study {                        // platen-study; a list that is empty leaves the scene's own value

@@ -181,9 +181,14 @@ def material_file(search, folder):
               f"# 50 mm x 100 mm ({summary['particles']} spheres), between dry steel platens (friction {entry(found['Platens'], 'Friction static')}). "
               "Another packing is\n# refused. Specimens of another size take spheres in proportion: 11.4 across the least width; other numbers are noted,\n# and need another calibration, or the exponents of Bond/Calibrated radius.",
               "# On five packings that the search did not see:"]
+    words, missed = calibrated_words(folder), {}
     for name, unit, wanted, mean, deviation, off in figures(folder):
-        lines.append(f"#   {name} {mean:.4g} +- {deviation:.2g} {unit}".rstrip() + f" (source {wanted:.4g}, {off:+.1f} %)")
-    if without := [word for word in ALL_WORDS[4:] if word not in calibrated_words(folder)]:
+        word = WORDS.get(name, "confined")
+        if word in words:
+            lines.append(f"#   {name} {mean:.4g} +- {deviation:.2g} {unit}".rstrip() + f" (source {wanted:.4g}, {off:+.1f} %)")
+        else:
+            missed[word] = f" ({name} {mean:.3g}, source {wanted:.3g})"
+    if without := [word + missed.get(word, "") for word in ALL_WORDS[4:] if word not in words]:
         lines.append(f"# Not calibrated: {', '.join(without)}. What they are: bench/results/materials.md.")
     if beyond := secants(folder):
         (e, de), _, (peak, dpeak) = beyond
@@ -223,6 +228,16 @@ def beyond_table(folders):
             cells[1] = secant_ratio(folder)
             lines.append(f"| {MATERIALS[search][0]} | " + " | ".join(cells) + " |")
     return "\n".join(lines)
+
+
+def joined(fresh, page, here):
+    """The table with the rows that the page has of other materials, in the order of MATERIALS; those of the platens are another table."""
+    lines = fresh.splitlines()
+    head, rows, columns = "\n".join(lines[:2]), lines[2:], lines[0].count("|")
+    kept = [line for line in page.split(PLATENS)[0].splitlines() if line.count("|") == columns]
+    names = [of[0] for of in MATERIALS.values()]
+    rows += [line for line in kept if (name := line.split("|")[1].strip()) in names and name not in here]
+    return "\n".join([head, *sorted(rows, key=lambda line: names.index(line.split("|")[1].strip()))])
 
 
 # Laboratory of the table of platens: low, high and words; of concrete alone, no source has any of a rock.
@@ -420,7 +435,9 @@ def main():
         path.write_text(material_file(search, folder))
         print(f"wrote {path.relative_to(ROOT)}")
     kept = results.read_text() if results.exists() else ""
-    text = HEADING + table(folders) + "\n" + BEYOND + beyond_table(folders) + "\n" + NOTES
+    here = [MATERIALS[search][0] for search, _ in folders]
+    parts = kept.split(BEYOND) if BEYOND in kept else ["", ""]
+    text = HEADING + joined(table(folders), parts[0], here) + "\n" + BEYOND + joined(beyond_table(folders), parts[1], here) + "\n" + NOTES
     if PLATENS in kept:
         begin = kept.index(PLATENS)
         text = with_section(text, kept[begin:kept.index("\n## ", begin) + 1].rstrip("\n") + "\n")

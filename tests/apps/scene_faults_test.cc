@@ -11,6 +11,7 @@
 
 #include "apps/programs.h"
 #include "apps/scene/declare.h"
+#include "apps/scene/scene.h"
 
 namespace platen::apps {
 namespace {

@@ -10,7 +10,7 @@
 #include "apps/scene/command_line.h"
 #include "apps/scene/declare.h"
 #include "apps/scene/expect.h"
-#include "apps/scene/scene_files.h"
+#include "apps/scene/scene_writer.h"
 #include "dem/measure/failure_pattern.h"
 
 namespace platen::apps {

@@ -9,7 +9,7 @@
 #include "apps/bonds/pair_section.h"
 #include "apps/programs.h"
 #include "apps/scene/declare.h"
-#include "apps/scene/scene_files.h"
+#include "apps/scene/scene_writer.h"
 
 namespace platen::apps {
 namespace {

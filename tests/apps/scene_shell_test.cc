@@ -1,4 +1,5 @@
 // Commands that are printed to be pasted: a shell makes of them what was called.
+#include "apps/scene/command_line.h"
 #include "apps/scene/shell.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,6 @@
-#include "apps/scene/checks.h"
-
-#include <filesystem>
+#include "apps/scene/scene_check.h"
 
 #include "apps/scene/regular_file.h"
-#include "apps/scene/scene_check.h"
 
 namespace platen::apps {
 
@@ -29,11 +26,6 @@ void SceneCheck::needed() const {
       const std::string why = entry.text.empty() ? needed({scene_, parameters_, program_}) : "";
       if (!why.empty()) refuse(entry.path, "is not set: " + why + " Allowed: " + limits(entry) + ".");
     }
-}
-
-std::string resolved_path(const Entry &entry) {
-  if (entry.text.empty() || entry.origin.line == 0) return entry.text;
-  return (std::filesystem::path(entry.origin.file).parent_path() / entry.text).string();
 }
 
 Faults check_scene(Scene &scene, const Parameters &parameters, const Program &program) {

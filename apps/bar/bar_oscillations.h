@@ -6,7 +6,7 @@
 
 #include "apps/bar/bar.h"
 #include "apps/bar/bar_section.h"
-#include "apps/bar/static_test.h"
+#include "apps/bar/bar_at_rest.h"
 #include "base/largest.h"
 #include "dem/measure/bond_network.h"
 

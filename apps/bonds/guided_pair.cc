@@ -1,4 +1,4 @@
-#include "apps/bonds/interface_test.h"
+#include "apps/bonds/guided_pair.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "apps/bar/dynamic_test.h"
+#include "apps/bar/bar_oscillations.h"
 
 #include <algorithm>
 #include <cmath>

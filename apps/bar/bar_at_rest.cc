@@ -1,4 +1,4 @@
-#include "apps/bar/static_test.h"
+#include "apps/bar/bar_at_rest.h"
 
 #include "apps/bar/bar_section.h"
 #include "dem/stable_step.h"

@@ -1,4 +1,4 @@
-#include "apps/calibrate/specimen_test.h"
+#include "apps/calibrate/trial_specimen.h"
 
 #include <fmt/format.h>
 

@@ -7,19 +7,17 @@
 #include <ostream>
 #include <sstream>
 
-#include "apps/scene/checks.h"
-#include "apps/scene/command_line.h"
 #include "apps/scene/declare.h"
 #include "apps/scene/layers.h"
 #include "apps/scene/regular_file.h"
-#include "apps/scene/scene_files.h"
+#include "apps/scene/scene_check.h"
 #include "apps/scene/specimen_file.h"
 #include "apps/scene/surfaces.h"
 
 namespace platen::apps {
 namespace {
 
-// The specimen of a file stands for the entries that the scene leaves out: lengths are told in its mean
+// The specimen of a file stands for the entries that the scene leaves out: lengths are in units of its mean
 // radius, its height and its width. A radius that the scene has for spheres of another size has no effect.
 // Throws EntryError for a file that cannot be read as one.
 void supply_specimen(SpecimenSection &to, const Parameters &parameters) {
@@ -85,44 +83,6 @@ void inherit(Scene &scene, Parameters &parameters, const Program &program) {
   for (Expectation &expectation : scene.expect)
     expectation.origin = parameters.at("Expect/" + expectation.key).origin.text();
   if (program.complete != nullptr) program.complete(parameters, scene);
-}
-
-// Of sections alike what is set; documented the first one whole.
-std::vector<Entry> written(const Parameters &parameters, bool documented) {
-  std::vector<Entry> entries;
-  for (const Entry &entry : parameters.entries())
-    if (entry.number == 0 || entry.changed() || (entry.number == 1 && documented)) entries.push_back(entry);
-  return entries;
-}
-
-// The nearest section or entry of any section; "" where none is near.
-std::string nearest_part(const Parameters &parameters, const std::string &part) {
-  std::vector<std::string> names = parameters.sections();
-  for (const Entry &entry : parameters.entries())
-    names.push_back(entry.path);
-  const std::string nearest = nearest_word(part, names);
-  if (!nearest.empty()) return nearest;
-  const std::string key = part.substr(part.rfind('/') + 1);
-  for (const std::string &name : names) // the right name in another place, or in none
-    if (edit_distance(name.substr(name.rfind('/') + 1), key) <= 1) return name;
-  return "";
-}
-
-// A section, with what is in it, or one entry.
-std::vector<Entry> part_of(const Parameters &parameters, const std::string &part) {
-  std::vector<Entry> entries = parameters.unwritten(part);
-  for (const Entry &entry : parameters.entries()) {
-    const bool inside = entry.path.rfind(part + "/", 0) == 0,
-               itself = entry.path.substr(0, entry.path.rfind('/')) == part;
-    const bool told = entry.changed() || entry.number <= 1 || itself;
-    if (entry.path == part || (inside && told)) entries.push_back(entry);
-  }
-  if (!entries.empty()) return entries;
-  const std::string nearest = nearest_part(parameters, part);
-  throw InputError("command line: error: --print-parameters " + part + ": no such section or entry." +
-                   (nearest.empty()
-                        ? " Allowed: SECTION or SECTION/KEY, as --print-parameters alone tells them."
-                        : " Did you mean \"" + nearest + "\"?"));
 }
 
 void keep(Scene &scene, Parameters &parameters) {
@@ -201,42 +161,6 @@ std::string completed_scene_text(const std::string &path, const std::string &fol
 void refuse(const Scene &scene, const std::string &entry, const std::string &reason) {
   if (scene.parameters && scene.parameters->find(entry)) scene.parameters->refuse(entry, reason);
   throw InputError("error: " + entry + " " + reason);
-}
-
-std::string scene_text(const Scene &scene, const std::filesystem::path &folder) {
-  std::vector<Entry> entries = written(*scene.parameters, false);
-  for (Entry &entry : entries) {
-    if (!entry.is_file || entry.text.empty()) continue;
-    const std::filesystem::path from = std::filesystem::absolute(resolved_path(entry));
-    std::error_code failure;
-    const std::filesystem::path there =
-        std::filesystem::relative(from, std::filesystem::absolute(folder), failure);
-    entry.text = failure || there.empty() ? from.string() : there.string();
-    try {
-      check_characters(entry.text);
-    } catch (const ValueError &error) {
-      throw InputError("error: " + entry.path + " = " + entry.text + " cannot be written to a scene: it " +
-                       error.what() + ".");
-    }
-  }
-  std::ostringstream text;
-  write_prm(entries, false, text);
-  return text.str();
-}
-
-void print_parameters(const Scene &scene, const std::string &part, bool as_json, std::ostream &out) {
-  std::vector<Entry> read;
-  if (!scene.parameters->is_foreign(part))
-    for (const Entry &entry :
-         part.empty() ? written(*scene.parameters, true) : part_of(*scene.parameters, part))
-      if (scene.program->reads_entry(entry.path)) read.push_back(entry);
-  if (read.empty())
-    throw InputError("command line: error: --print-parameters: " + scene.program->name +
-                     " reads nothing of " + part + ".");
-  if (as_json)
-    write_json(read, out);
-  else
-    write_prm(read, true, out);
 }
 
 } // namespace platen::apps
