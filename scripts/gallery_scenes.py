@@ -222,7 +222,7 @@ GROUPS = [
               "of cubes by friction of 1.45. Coarse spheres; five other packings verify the result."),
         Scene("calibrate_c40", CALIBRATE, "",
               "Ready bonds, `materials/concrete_c40.prm`: the concrete of Imran and Pantazopoulou, 47.4 MPa unconfined, 119.8 and "
-              "204.2 MPa under 17.2 and 43 MPa.", cost="about 20 minutes on two cores"),
+              "204.2 MPa under 17.2 and 43 MPa, with what platen friction adds in laboratories.", cost="half an hour on two cores"),
         Scene("calibrate_c70", CALIBRATE, "",
               "Ready bonds, `materials/concrete_c70.prm`: a concrete of class C70, 78 MPa unconfined, 118.7 and 167.5 MPa under 8 "
               "and 20 MPa.", cost="about 15 minutes on two cores"),
