@@ -225,7 +225,7 @@ GROUPS = [
               "204.2 MPa under 17.2 and 43 MPa, with what platen friction adds in laboratories.", cost="half an hour on two cores"),
         Scene("calibrate_c70", CALIBRATE, "",
               "Ready bonds, `materials/concrete_c70.prm`: a concrete of class C70, 78 MPa unconfined, 118.7 and 167.5 MPa under 8 "
-              "and 20 MPa.", cost="about 15 minutes on two cores"),
+              "and 20 MPa, with what platen friction adds in laboratories.", cost="half an hour on two cores"),
         Scene("calibrate_granite", CALIBRATE, "",
               "Ready bonds, `materials/granite.prm`: Westerly granite, 256 MPa unconfined, 10 MPa in tension, 385 and 632 MPa under 13 and "
               "42 MPa.", cost="about 15 minutes on two cores"),
