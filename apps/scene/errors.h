@@ -28,4 +28,10 @@ public:
   using std::runtime_error::runtime_error;
 };
 
+// Why a text is no value: a predicate that goes after the text, e.g. `is not a number`.
+class ValueError : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
 } // namespace platen::apps

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <optional>
 
-#include "apps/scene/units.h"
+#include "apps/scene/errors.h"
 #include "base/characters.h"
 
 namespace platen::apps {

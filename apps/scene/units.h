@@ -2,18 +2,12 @@
 // locale.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 
+#include "apps/scene/errors.h"
 #include "base/shortest_text.h"
 
 namespace platen::apps {
-
-// Why a text is no value: a predicate that goes after the text, e.g. `is not a number`.
-class ValueError : public std::runtime_error {
-public:
-  using std::runtime_error::runtime_error;
-};
 
 // A number and what follows it, e.g. {0.05, "R_min"}; unit is empty for a bare number.
 struct NumberWithUnit {
