@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "apps/bar/bar.h"
-#include "apps/bar/bar_section.h"
 #include "apps/bar/bar_at_rest.h"
+#include "apps/bar/bar_section.h"
 #include "base/largest.h"
 #include "dem/measure/bond_network.h"
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/bar/bar_section.h"
-#include "apps/bar/bar_oscillations.h"
 #include "apps/bar/bar_at_rest.h"
+#include "apps/bar/bar_oscillations.h"
+#include "apps/bar/bar_section.h"
 #include "apps/output/csv_writer.h"
 #include "apps/run/app_output.h"
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "apps/bar/bar_oscillations.h"
 #include "apps/bar/bar_at_rest.h"
+#include "apps/bar/bar_oscillations.h"
 #include "apps/bar/strength_of_materials.h"
 #include "base/pi.h"
 
