@@ -160,5 +160,23 @@ TEST_F(Frames, are_what_the_tables_tell) {
   }
 }
 
+// The loop makes several steps at a time: none of them passes over a row that is due.
+TEST_F(ScratchFolder, rows_by_time_are_the_first_step_at_or_after_each_multiple) {
+  const auto times = [&](const std::string &every) {
+    const Outcome outcome =
+        run_compress({test_scene("crushed.prm"), "-o", "run", "--quiet", "--overwrite", "-s",
+                      "Output/Every = " + every, "-s", "Loading/Target strain = 0.0005"},
+                     folder_);
+    EXPECT_EQ(outcome.status, 0) << outcome.error;
+    return column_of(folder_ / "run/history.csv", "time_s");
+  };
+  const std::vector<double> all = times("1"), rows = times("3.7 us");
+  std::vector<double> due{0};
+  for (std::size_t k = 1; k < all.size(); ++k)
+    if (std::floor(all[k] / 3.7e-6) > std::floor(all[k - 1] / 3.7e-6)) due.push_back(all[k]);
+  ASSERT_GT(all.size(), 3 * due.size());
+  EXPECT_EQ(rows, due);
+}
+
 } // namespace
 } // namespace platen::apps
