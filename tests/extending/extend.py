@@ -14,7 +14,7 @@ import subprocess
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-COPIED = ["CMakeLists.txt", "cmake", "base", "dem", "dist"]
+COPIED = ["CMakeLists.txt", "cmake", "debian", "base", "dem", "dist"]
 # Of each law: its own file, where that goes, and (file, text, text in its place) elsewhere.
 ADDITIONS = {
     "bond law": ("spring_bond.h", "dem/laws/spring_bond.h", [

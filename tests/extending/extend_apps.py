@@ -18,7 +18,7 @@ import subprocess
 import sys
 import time
 
-COPIED = ["CMakeLists.txt", "cmake", "base", "dem", "dist", "fem", "coupling", "apps"]
+COPIED = ["CMakeLists.txt", "cmake", "debian", "base", "dem", "dist", "fem", "coupling", "apps"]
 # (file, text, text in its place): the declaration of the key, its use, the column.
 KEY = [
     ("coupling/experiment.h", "  double fixed_step = 0; // s; 0: safety times the limit\n",
@@ -113,7 +113,7 @@ def build(source, folder, compiler):
     if max(map(len, parts)) > PART_FILES:
         sys.exit("a boundary or a stage touches more files than docs/extending.md says")
     run("cmake", "-S", copy, "-B", folder / "build", "-DCMAKE_BUILD_TYPE=Release", "-DPLATEN_TESTS=OFF", "-DPLATEN_BENCH=OFF",
-        *compiler)
+        "-DPLATEN_PYTHON=OFF", *compiler)
     run("cmake", "--build", folder / "build", "--target", "platen-compress", "-j2")
     return folder / "build/apps/platen-compress"
 
@@ -155,11 +155,11 @@ def check_parts(program, scene, folder):
         jacket = ["-s", f"Loading/Jacket stiffness = {stiffness} N/m"]
         run(program, *coarse, "-o", folder, *jacket, "-s", "Effects/Energy ledger = on")
         summary = json.loads((folder / "summary.json").read_text())
-        strengths.append(summary["strength_pa"])
+        strengths.append(summary["largest_stress_pa"])  # in a stiff jacket there is no peak
         if not summary["energy_residual_relative"] < 0.01:
             sys.exit(f"jacket of {stiffness} N/m: energy residual {summary['energy_residual_relative']}, expected below 0.01")
     if not strengths[1] > 1.1 * strengths[0]:
-        sys.exit(f"strength bare and in a jacket: expected a gain above 10 %, found {strengths} Pa")
+        sys.exit(f"largest stress bare and in a jacket: expected a gain above 10 %, found {strengths} Pa")
     run(program, *coarse, "-o", folder, "-s", "Loading/Target strain = 0.001", "-s", f"Loading/Standstill = {STANDSTILL} s")
     first, second, *_, last = rows(folder)
     begin = next(row for row in rows(folder) if row["axial_strain_platen"] >= 0.001 * (1 - 1e-9))
@@ -170,24 +170,24 @@ def check_parts(program, scene, folder):
 
 
 def check_older(old, new, scene, folder):
-    """A run that the old program has begun goes on with the new one: NaN in the column until then."""
+    """A run that the old program has begun is not mixed with the new one: its table has other columns, which is said."""
     begun = subprocess.Popen([str(c) for c in (old, scene, "-o", folder, "--overwrite", "--quiet")])
     while begun.poll() is None and (not (folder / "history.csv").exists() or len(rows(folder)) < 5):
         time.sleep(0.05)
     begun.send_signal(signal.SIGINT)
     if begun.wait() != 130:
         sys.exit(f"the old program ended with status {begun.returncode}, expected 130: stopped")
-    run(new, scene, "-o", folder, "--resume", "--quiet")
-    stress = [row["mean_stress_pa"] for row in rows(folder)]
-    if not math.isnan(stress[0]) or math.isnan(stress[-1]):
-        sys.exit(f"mean stress: expected NaN first and a number last, found {stress[0]} and {stress[-1]}")
+    refused = run(new, scene, "-o", folder, "--resume", "--quiet", status=2)
+    if "history.csv: error: its header line is not that of this run" not in refused:
+        sys.exit(f"the table of an older run is refused with other words: {refused}")
 
 
 def main():
     """The whole test."""
     if len(sys.argv) < 4:
         sys.exit(__doc__)
-    source, folder, old = (pathlib.Path(a).resolve() for a in sys.argv[1:4])
+    # The program is a link whose name says which one it is.
+    source, folder, old = (pathlib.Path(a).absolute() for a in sys.argv[1:4])
     compiler = [f"-DCMAKE_CXX_COMPILER={sys.argv[4]}"] if len(sys.argv) > 4 else []
     new = build(source, folder, compiler)
     scene = source / "scenes/hydrostatic_concrete.prm"
