@@ -2,12 +2,15 @@
 // solvers and VTK. The program loads it only for this (apps/platen.cc).
 #include "apps/engine.h"
 
+#include <iostream>
 #include <map>
+#include <stdexcept>
 #include <string>
 
 #include "apps/bar/run_bar.h"
 #include "apps/bonds/run_bonds.h"
 #include "apps/calibrate/run_calibrate.h"
+#include "apps/output/state_listing.h"
 #include "apps/run/compression.h"
 #include "apps/run/pack.h"
 #include "apps/run/ranks.h"
@@ -32,4 +35,12 @@ int platen_engine(int argc, char **argv, const Program &program, const CommandLi
   const AppBody &body = bodies.at(program.name);
   if (line == nullptr) return run_app_on_ranks(argc, argv, program, body);
   return body(*line, *scene);
+}
+
+int platen_state(int argc, char **argv) {
+  if (argc < 2 || argc > 3)
+    throw std::invalid_argument("platen state takes one or two folders. Allowed: FOLDER [OTHER].");
+  if (argc == 3) return compare_states(argv[1], argv[2], std::cout) ? status_done : status_check_failed;
+  list_state(argv[1], std::cout);
+  return status_done;
 }

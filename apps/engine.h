@@ -1,4 +1,4 @@
-// The one function of the engine library that programs call.
+// The functions of the engine library that programs call.
 #pragma once
 
 #include "apps/scene/command_line.h"
@@ -7,3 +7,7 @@
 // several ranks, and reads them together with the others.
 extern "C" int platen_engine(int argc, char **argv, const platen::apps::Program &program,
                              const platen::apps::CommandLine *line, const platen::apps::Scene *scene);
+
+// `state FOLDER`: lists what the newest checkpoint of an output folder holds; `state FOLDER OTHER`: reports
+// the first difference of two. Returns the exit status. Throws std::invalid_argument, CheckpointError.
+extern "C" int platen_state(int argc, char **argv);

@@ -35,7 +35,8 @@ fs::path own_folder() {
 }
 
 // Throws std::runtime_error if the library is not there or does not fit.
-decltype(&platen_engine) engine() {
+template <class Function>
+Function in_engine(const char *name) {
   // A run has threads of its own (-t). Those of the library for dense matrices would take a tenth of a second
   // to start and end, and could add in another order on a machine with more cores.
   ::setenv("OPENBLAS_NUM_THREADS", "1", 0);
@@ -43,10 +44,14 @@ decltype(&platen_engine) engine() {
   const fs::path built = own_folder() / "engine.so",
                  file = fs::exists(built, none) ? built : own_folder() / PLATEN_ENGINE;
   void *library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL); // global: plug-ins of MPI need its symbols
-  void *entry = library == nullptr ? nullptr : ::dlsym(library, "platen_engine");
+  void *entry = library == nullptr ? nullptr : ::dlsym(library, name);
   if (entry == nullptr)
     throw std::runtime_error(std::string(::dlerror()) + ". It belongs to platen: install both anew");
-  return reinterpret_cast<decltype(&platen_engine)>(entry);
+  return reinterpret_cast<Function>(entry);
+}
+
+decltype(&platen_engine) engine() {
+  return in_engine<decltype(&platen_engine)>("platen_engine");
 }
 
 int start(const Program &program, int argc, char **argv) {
@@ -82,6 +87,7 @@ std::string help() {
       "Platen crushes and pulls specimens of bonded spheres between the platens of a testing machine.\n\n"
       "Usage: platen PROGRAM [ARGUMENTS]     the same as platen-PROGRAM [ARGUMENTS]\n"
       "       platen scenes [NAME]           the scenes that came with it; the path of one\n"
+      "       platen state FOLDER [OTHER]    what the newest checkpoint of a run holds; where two differ\n"
       "       platen --version [--json]\n"
       "       platen --help\n\nPrograms, each with --help and a man page:\n";
   const auto add = [&](const std::string &word, const std::string &purpose) {
@@ -128,6 +134,18 @@ int print_version(const std::vector<std::string> &words) {
   return status_done;
 }
 
+int list_state(int argc, char **argv) {
+  try {
+    return in_engine<decltype(&platen_state)>("platen_state")(argc, argv);
+  } catch (const std::invalid_argument &error) {
+    return refuse(error.what());
+  } catch (const std::exception &error) {
+    std::cout.flush();
+    std::cerr << "error: " << error.what() << '\n';
+    return dynamic_cast<const InputError *>(&error) != nullptr ? status_bad_input : status_output;
+  }
+}
+
 // Becomes platen-report, a program of its own; returns only if that cannot be started.
 int become_report(char **argv) {
   const fs::path path = own_folder() / (prefix + report);
@@ -140,7 +158,7 @@ int become_report(char **argv) {
 }
 
 int start_named(const std::string &word, int argc, char **argv) {
-  std::vector<std::string> known{"scenes", "--help", "--version", report};
+  std::vector<std::string> known{"scenes", "state", "--help", "--version", report};
   for (const Program &one : programs()) {
     if (one.name == prefix + word) {
       std::string name = one.name;
@@ -174,6 +192,7 @@ int main(int argc, char **argv) {
   }
   if (word == "--version" || (word == "--json" && !rest.empty())) return print_version(rest);
   if (word == "scenes") return list_scenes(rest);
+  if (word == "state") return list_state(argc - 1, argv + 1);
   if (word == report) return become_report(argv);
   return start_named(word, argc, argv);
 }

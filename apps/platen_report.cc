@@ -14,7 +14,7 @@
 #include "apps/report/parameter_study.h"
 #include "apps/report/platen_study.h"
 #include "apps/report/report.h"
-#include "apps/report/state_listing.h"
+#include "apps/output/state_listing.h"
 #include "apps/report/target_study.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/rank.h"
@@ -32,9 +32,9 @@ struct Wishes {
 };
 
 int tell_state(const Wishes &wishes) {
-  if (wishes.state) report::list_state(wishes.folder, std::cout);
+  if (wishes.state) list_state(wishes.folder, std::cout);
   if (wishes.other_state.empty()) return status_done;
-  return report::compare_states(wishes.folder, wishes.other_state, std::cout) ? status_done
+  return compare_states(wishes.folder, wishes.other_state, std::cout) ? status_done
                                                                               : status_check_failed;
 }
 

@@ -16,5 +16,6 @@ set(PLATEN_OUTPUT_SOURCES
   output/run_log.cc
   output/seed_statistics.cc
   output/progress.cc
+  output/state_listing.cc
   output/stop_signal.cc
   output/specimen_csv.cc)

@@ -46,7 +46,6 @@ set(PLATEN_REPORT_SOURCES
   report/specimen_pictures.cc
   report/specimen_view.cc
   report/stages.cc
-  report/state_listing.cc
   report/stress_flow.cc
   report/strips.cc
   report/study_curves.cc

@@ -1,14 +1,14 @@
-// What platen-report tells of the state in a checkpoint.
+// What is listed of the state in a checkpoint.
 #include <gtest/gtest.h>
 
 #include <regex>
 #include <sstream>
 
 #include "apps/output/checkpoint_folder.h"
-#include "apps/report/state_listing.h"
-#include "apps/report_folder.h"
+#include "apps/output/state_listing.h"
+#include "scratch_folder.h"
 
-namespace platen::apps::report {
+namespace platen::apps::testing {
 namespace {
 
 struct Spheres {
@@ -28,11 +28,14 @@ struct Spheres {
   }
 };
 
-std::filesystem::path keep(const TestFolder &folder, const std::string &run, const Spheres &spheres) {
-  write_checkpoint(folder / run / "checkpoint", 12,
-                   [&](StateSink &to) { save_part(to, "specimen", spheres); });
-  return folder / run;
-}
+class StateListing : public ScratchFolder {
+protected:
+  std::filesystem::path keep(const std::string &run, const Spheres &spheres) const {
+    write_checkpoint(folder_ / run / "checkpoint", 12,
+                     [&](StateSink &to) { save_part(to, "specimen", spheres); });
+    return folder_ / run;
+  }
+};
 
 // With one blank for several.
 std::string squeezed(const std::string &text) {
@@ -43,10 +46,9 @@ bool holds(const std::string &text, const std::string &part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST(report_state, every_block_is_listed_with_rows_kind_unit_and_range) {
-  const TestFolder folder;
+TEST_F(StateListing, every_block_is_listed_with_rows_kind_unit_and_range) {
   std::ostringstream out;
-  list_state(keep(folder, "run", Spheres()), out);
+  list_state(keep("run", Spheres()), out);
   const std::string text = squeezed(out.str());
   EXPECT_TRUE(holds(text, "step_000000000012.platen: step 12, 5 blocks, ")) << text;
   EXPECT_TRUE(holds(text, "\nspecimen (version 4)\n")) << text;
@@ -55,23 +57,20 @@ TEST(report_state, every_block_is_listed_with_rows_kind_unit_and_range) {
   EXPECT_TRUE(holds(text, "\nspecimen/particles/radius 3 float64 m 0.5 ... 2\n")) << text;
 }
 
-TEST(report_state, numbers_that_are_none_are_counted_beside_the_range) {
-  const TestFolder folder;
+TEST_F(StateListing, numbers_that_are_none_are_counted_beside_the_range) {
   Spheres broken;
   broken.radius[1] = std::nan("");
   std::ostringstream out;
-  list_state(keep(folder, "run", broken), out);
+  list_state(keep("run", broken), out);
   EXPECT_TRUE(holds(squeezed(out.str()), "\nspecimen/particles/radius 3 float64 m 1 ... 2 and 1 nan\n"))
       << out.str();
 }
 
-TEST(report_state, the_first_difference_of_two_runs_is_told) {
-  const TestFolder folder;
+TEST_F(StateListing, the_first_difference_of_two_runs_is_told) {
   Spheres other;
-  const std::filesystem::path first = keep(folder, "first", Spheres()),
-                              same = keep(folder, "same", Spheres());
+  const std::filesystem::path first = keep("first", Spheres()), same = keep("same", Spheres());
   other.radius[1] = 0.25;
-  const std::filesystem::path changed = keep(folder, "changed", other);
+  const std::filesystem::path changed = keep("changed", other);
   std::ostringstream out;
   EXPECT_TRUE(compare_states(first, same, out));
   EXPECT_TRUE(holds(out.str(), ": the same to the last bit\n")) << out.str();
@@ -80,11 +79,10 @@ TEST(report_state, the_first_difference_of_two_runs_is_told) {
   EXPECT_TRUE(holds(out.str(), ": specimen/particles/radius, row 1: 0.5 and 0.25 m\n")) << out.str();
 }
 
-TEST(report_state, a_folder_without_a_checkpoint_is_refused) {
-  const TestFolder folder;
+TEST_F(StateListing, a_folder_without_a_checkpoint_is_refused) {
   std::ostringstream out;
-  EXPECT_THROW(list_state(folder / "none", out), CheckpointError);
+  EXPECT_THROW(list_state(folder_ / "none", out), CheckpointError);
 }
 
 } // namespace
-} // namespace platen::apps::report
+} // namespace platen::apps::testing

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <iosfwd>
 
-namespace platen::apps::report {
+namespace platen::apps {
 
 // The newest whole checkpoint of an output folder: each part with its version, each block with its rows, what
 // they are made of, unit, least and largest number. Newer ones that are damaged are told. Throws
@@ -15,4 +15,4 @@ void list_state(const std::filesystem::path &folder, std::ostream &out);
 bool compare_states(const std::filesystem::path &folder, const std::filesystem::path &other,
                     std::ostream &out);
 
-} // namespace platen::apps::report
+} // namespace platen::apps

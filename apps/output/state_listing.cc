@@ -1,4 +1,4 @@
-#include "apps/report/state_listing.h"
+#include "apps/output/state_listing.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "apps/output/checkpoint_folder.h"
 #include "apps/output/output_folder.h"
 
-namespace platen::apps::report {
+namespace platen::apps {
 namespace {
 
 const std::string version_block = "/version";
@@ -83,4 +83,4 @@ bool compare_states(const std::filesystem::path &folder, const std::filesystem::
   return !difference;
 }
 
-} // namespace platen::apps::report
+} // namespace platen::apps
