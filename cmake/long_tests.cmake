@@ -1,7 +1,7 @@
 # Long forms of tests: plain ctest leaves them out, "ctest -C Long" runs them as well (scripts/test_long.sh).
 
-# platen_long_gtest(PROGRAM PREFIX TEST...): each TEST is Suite.long_name of the gtest program PROGRAM. Keep them out of
-# its quick tests: gtest_discover_tests(PROGRAM TEST_FILTER "-*.long_*").
+# platen_long_gtest(PROGRAM PREFIX TEST...): each TEST is Suite.long_name of the gtest program PROGRAM. Its
+# quick tests are without them (platen_suites).
 function(platen_long_gtest program prefix)
   foreach(test ${ARGN})
     add_test(NAME ${prefix}${test} CONFIGURATIONS Long COMMAND ${program} --gtest_filter=${test})

@@ -14,6 +14,7 @@ Exit status: 0; 1 where a test fails or a check does not hold; 2 on bad input; 7
 """
 
 import argparse
+import copy
 import datetime
 import json
 import os
@@ -42,16 +43,35 @@ oldest run.
 
 
 class Test:
-    """One ctest: its name without gtest's remark on parameters, and how to run it."""
+    """One ctest, or one test of a gtest suite, and how to run it."""
 
     def __init__(self, entry):
-        self.name = re.sub(r"\s+# GetParam\(\).*", "", entry["name"])
+        self.name = entry["name"]
         self.command = entry.get("command", [])
         properties = {p["name"]: p["value"] for p in entry.get("properties", [])}
         self.folder = properties.get("WORKING_DIRECTORY")
         self.environment = dict(line.split("=", 1) for line in properties.get("ENVIRONMENT", []))
         filters = [a for a in self.command if a.startswith("--gtest_filter=")]
         self.filter = filters[0].split("=", 1)[1] if filters else None
+
+    def single(self, case):
+        """The test of this suite that gtest calls Suite.case."""
+        one = copy.copy(self)
+        one.name, one.filter = f"{self.name}.{case}", f"{self.filter.split('.*')[0]}.{case}"
+        return one
+
+
+def cases_of(program):
+    """{suite: [test, ...]} of a gtest program."""
+    cases = {}
+    for line in subprocess.run([program, "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout.splitlines():
+        word = line.split("#")[0].rstrip()
+        if line.startswith("  "):
+            cases[suite].append(word.strip())
+        elif word.endswith(".") and " " not in word:
+            suite = word[:-1]
+            cases[suite] = []
+    return cases
 
 
 def tests_of(build):
@@ -66,7 +86,16 @@ def tests_of(build):
     if missing:
         print("not built: " + ", ".join(missing), file=sys.stderr)
         sys.exit(77)
-    return tests
+    cases, single = {}, []
+    for test in tests:
+        suite = test.filter.split(".*")[0] if test.filter and ".*" in test.filter else None
+        if suite is None:
+            single.append(test)
+            continue
+        if test.command[0] not in cases:
+            cases[test.command[0]] = cases_of(test.command[0])
+        single += [test.single(case) for case in cases[test.command[0]][suite] if not case.startswith("long_")]
+    return single
 
 
 def matching(patterns, tests):
