@@ -103,11 +103,48 @@ StudyPlan plan_rate(const Scene &scene) {
   return plan;
 }
 
+// "friction_static", "confining_pressure_pa": the key, with its SI unit.
+std::string column_of(const std::string &path, const std::string &unit) {
+  return as_name(path.substr(path.rfind('/') + 1)) + (unit.empty() || unit == "1" ? "" : "_" + as_name(unit));
+}
+
+double number_of(const std::string &text, const std::string &unit) {
+  try {
+    return to_si(text, unit);
+  } catch (const ValueError &) { // a word
+    return not_given;
+  }
+}
+
+StudyPlan plan_vary(const Scene &scene) {
+  StudyPlan plan;
+  plan.cases = {StudyCase{}};
+  for (const Varied &one : study_of(scene).vary) {
+    if (one.path.empty()) continue;
+    const std::string &unit = scene.parameters->at(one.path).unit;
+    plan.varied.push_back(column_of(one.path, unit));
+    std::vector<StudyCase> all;
+    for (const StudyCase &before : plan.cases)
+      for (const std::string &value : one.values) {
+        all.push_back(before);
+        all.back().name += (before.name.empty() ? "" : "_") +
+                           as_name(one.path.substr(one.path.rfind('/') + 1) + " " + value);
+        all.back().labels.push_back(number_of(value, unit));
+        all.back().overrides.push_back(one.path + " = " + value);
+      }
+    plan.cases = std::move(all);
+  }
+  if (plan.varied.empty())
+    scene.parameters->refuse("Study/Vary 1",
+                             "is not set: nothing is varied. Allowed: \"Section/Key: value, value\".");
+  return plan;
+}
+
 using Plan = StudyPlan (*)(const Scene &);
 
 // As StudyKind; a target, the last, asks for more.
-constexpr std::array<Plan, study_words.size() - 1> plans{plan_friction, plan_slenderness, plan_size,
-                                                         plan_packing,  plan_rate,        plan_accuracy};
+constexpr std::array<Plan, study_words.size() - 1> plans{
+    plan_friction, plan_slenderness, plan_size, plan_packing, plan_rate, plan_accuracy, plan_vary};
 
 } // namespace
 

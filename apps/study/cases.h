@@ -11,7 +11,7 @@
 
 namespace platen::apps {
 
-enum class StudyKind { friction, slenderness, size, packing, rate, accuracy, target };
+enum class StudyKind { friction, slenderness, size, packing, rate, accuracy, vary, target };
 // Those that tell what platens do, and have StudyCase::surface.
 inline bool of_platens(StudyKind kind) {
   return kind == StudyKind::friction || kind == StudyKind::slenderness;

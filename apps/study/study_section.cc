@@ -50,6 +50,21 @@ std::vector<std::string> read_assignments(const std::string &text) {
   });
 }
 
+// "Platens/Friction static: 0, 0.1, 0.3"; "" varies nothing.
+Varied read_varied(const std::string &text) {
+  if (text.empty()) return {};
+  const std::size_t colon = text.find(':');
+  const std::string path = tidy(text.substr(0, colon));
+  if (colon == std::string::npos || path.find('/') == std::string::npos)
+    throw ValueError("varies no entry: \"Section/Key: value, value\" does");
+  if (path.rfind("Study/", 0) == 0 || path == "Scene/Seed")
+    throw ValueError("varies " + path + ", which is of the study itself");
+  Varied varied{path, read_items<std::string>(tidy(text.substr(colon + 1)),
+                                              [](const std::string &item) { return item; })};
+  if (varied.values.empty()) throw ValueError("has no value");
+  return varied;
+}
+
 // What trades accuracy for time: each list is run alone, all else as the scene has it.
 void declare_accuracy_lists(Section &section, Study &study) {
   section.entry(
@@ -143,6 +158,10 @@ void declare_study(Parameters &parameters, Scene &scene) {
   section.entry("Axial rate list", study.axial_rates, "m/s", above(0),
                 "Studies of rate and accuracy, in place of Loading/Axial rate.");
   declare_accuracy_lists(section, study);
+  for (std::size_t k = 0; k < study.vary.size(); ++k)
+    section.value("Vary " + std::to_string(k + 1), study.vary[k], "",
+                  "\"Section/Key: value, value\"; no value may hold a comma", read_varied,
+                  "Study vary: an entry and its values; each value of one with each of the others.");
   declare_target(parameters, study.target);
 }
 
@@ -158,6 +177,8 @@ bool gives(const Scene &scene, const Parameters &parameters, const std::string &
   };
   const bool targets = std::any_of(parameters.entries().begin(), parameters.entries().end(), set);
   if (path == "Platens/Surface") return true;
+  for (const Varied &one : study.vary)
+    if (one.path == path) return true;
   if (path == "Loading/Axial rate")
     return !study.axial_rates.empty() || !study.wave_transits.empty() || !study.qualities.empty() || targets;
   if (path == "Loading/Confining pressure") return !study.pressures.empty();
@@ -201,6 +222,19 @@ void check_study(const SceneCheck &check) {
   once("Study/Sleeve mesh list", study.sleeve_elements);
   once("Study/Sleeve mass scaling list", study.sleeve_mass_scalings);
   words_once("Study/Effects list", study.changes);
+  for (std::size_t k = 0; k < study.vary.size(); ++k) {
+    const std::string entry = "Study/Vary " + std::to_string(k + 1), &path = study.vary[k].path;
+    words_once(entry, study.vary[k].values);
+    if (!path.empty() && check.parameters().find(path) == nullptr) {
+      std::vector<std::string> known;
+      for (const Entry &one : check.parameters().entries())
+        known.push_back(one.path);
+      check.refuse(entry, "names " + path + ", which is no entry of this scene." + did_you_mean(path, known));
+    }
+    for (std::size_t j = 0; j < k; ++j)
+      if (!path.empty() && study.vary[j].path == path)
+        check.refuse(entry, "varies " + path + " a second time. Allowed: each entry once.");
+  }
   for (const bool relative : {true, false}) {
     std::vector<double> gaps;
     for (const Gap &gap : study.gaps)
@@ -224,8 +258,10 @@ Program study_program() {
   Program p;
   p.name = "platen-study";
   p.purpose =
-      "Runs platen-compress over platens, slendernesses, sizes, packings, rates or what trades accuracy for "
-      "time, each on several seeds, and tables the results; or finds the cheapest runs for an accuracy that "
+      "Runs platen-compress over platens, slendernesses, sizes, packings, rates, any entries (vary) or what "
+      "trades "
+      "accuracy for time, each on several seeds, and tables the results; or finds the cheapest runs for an "
+      "accuracy that "
       "is ordered (target).";
   p.kinds = {study_words.begin(), study_words.end()};
   p.section = "Study";

@@ -32,6 +32,11 @@ struct DomainSize {              // of a cylinder
   double height = 0, radius = 0; // m
 };
 
+struct Varied {     // study of any entry
+  std::string path; // "Platens/Friction static"; "" where nothing is varied
+  std::vector<std::string> values;
+};
+
 struct Study {                        // platen-study; a list that is empty leaves the scene's own value
   int seeds = 5;                      // runs of each case: Scene/Seed and those after it
   std::vector<StudySurface> surfaces; // friction
@@ -49,6 +54,7 @@ struct Study {                        // platen-study; a list that is empty leav
   std::vector<double> sleeve_mass_scalings, wave_transits;
   std::vector<Quality> qualities;
   std::vector<std::string> changes; // "Section/Key = value", each alone against the scene as it is
+  std::array<Varied, 4> vary;       // vary: each value with each of the others
   StudyTarget target;
 };
 
@@ -57,8 +63,8 @@ inline const Study &study_of(const Scene &scene) {
 }
 
 // Kinds of studies by their word on the command line, as StudyKind (apps/study/cases.h) numbers them.
-inline constexpr std::array study_words{"friction", "slenderness", "size",  "packing",
-                                        "rate",     "accuracy",    "target"};
+inline constexpr std::array study_words{"friction", "slenderness", "size", "packing",
+                                        "rate",     "accuracy",    "vary", "target"};
 
 Program study_program();
 

@@ -202,7 +202,8 @@ std::vector<Comparison> StudyTables::comparisons(const CalibratedFor &bonds) con
 }
 
 std::string StudyTables::text() const {
-  const bool accuracy = plan_.kind == StudyKind::accuracy || plan_.kind == StudyKind::target,
+  const bool accuracy = plan_.kind == StudyKind::accuracy || plan_.kind == StudyKind::target ||
+                        plan_.kind == StudyKind::vary,
              named = of_platens(plan_.kind) || accuracy;
   const std::vector<Label> labels = labels_of(plan_, named);
   std::vector<std::vector<std::string>> rows(1);
