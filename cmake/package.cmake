@@ -53,9 +53,9 @@ install(DIRECTORY ${CMAKE_BINARY_DIR}/manual/ DESTINATION ${CMAKE_INSTALL_DATADI
   COMPONENT documentation EXCLUDE_FROM_ALL OPTIONAL PATTERN man EXCLUDE)
 
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "xvfb, xauth, fonts-dejavu-core")
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "bash-completion, fonts-wqy-microhei, python3")
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "platen-doc, python3-platen, paraview, openmpi-bin")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "python3-platen (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), python3-matplotlib")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "bash-completion")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "platen-doc, paraview, openmpi-bin, fonts-wqy-microhei")
 set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION "laboratory of bonded spheres between finite-element platens
 Platen crushes, confines, bends, splits and pulls specimens of bonded discrete
 elements (concrete, rock, glass) between the platens of a testing machine,
@@ -88,15 +88,12 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11~), python3 (<< 3.12), python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
   ${PROJECT_SOURCE_DIR}/debian/python3-platen/postinst ${PROJECT_SOURCE_DIR}/debian/python3-platen/prerm)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "platen")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-matplotlib")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "platen, python3-matplotlib")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "bonded spheres between finite-element platens, Python
 Platen crushes specimens of bonded discrete elements between the platens of a
 testing machine, which are finite elements.
 .
-This package reads its results as numpy arrays, and builds, runs and changes
-experiments in a script.")
-if(NOT PLATEN_PYTHON)
-  list(REMOVE_ITEM CPACK_COMPONENTS_ALL python)
-endif()
+This package reads its results as numpy arrays, draws them, and builds, runs
+and changes experiments in a script.")
 include(CPack)

@@ -33,12 +33,16 @@ MORE = {
         "not seen, and written to found.prm, a scene that can be run.",
     ],
     "platen-study": [
-        "Kinds: friction, slenderness, size, packing, rate, accuracy, target. Lists and seeds are those of the scene's section Study. A study may be made "
+        "Kinds: friction, slenderness, size, packing, rate, accuracy, vary (any entries), target. Lists and seeds are those of the scene's section Study. A study may be made "
         "run by run over many machines: --plan, --run K, --collect.",
     ],
     "platen-report": [
-        "The page is FOLDER/pictures/report.html; charts are written as PNG and SVG. Pictures need an X server, or xvfb-run(1), "
-        "which is started where there is none.",
+        "The page is FOLDER/pictures/report.html, one file with everything in it: charts as SVG, with values under the pointer, and a "
+        "view of the specimen that can be rotated. Each picture is written as PNG beside it, with --pictures each chart as PDF or SVG too. "
+        "No display is needed.",
+        "--laboratory draws a measured curve beside that of the run, with the differences in stiffness, strength and strain. The file is read "
+        "as a laboratory writes it: any header that names stress or load and strain or displacement with their units, comma, semicolon or tab, "
+        "decimal comma, %, per mille, kN and mm.",
     ],
 }
 
@@ -56,6 +60,7 @@ SHORT = {  # the line that whatis(1) prints
 
 COMMANDS_OF_PLATEN = [(name.removeprefix("platen-"), text[0].upper() + text[1:] + ".")
                       for name, text in SHORT.items() if name != "platen"] + [
+    ("state FOLDER", "List what the newest checkpoint of a run holds; with a second folder report the first difference."),
     ("scenes NAME", "Print the path of a scene that came with Platen; without NAME list them."),
     ("--version", "Print version and libraries; with --json as JSON."),
     ("--help", "Print the programs and end."),
@@ -78,7 +83,7 @@ EXIT = {
     "platen-report": [
         ("0", "Done."),
         ("1", "With --state-diff: the checkpoints differ."),
-        ("2", "Bad input: a folder without results, damaged or missing files, no display to draw on."),
+        ("2", "Bad input: a folder without results, damaged or missing files, a laboratory's file that cannot be read."),
         ("4", "Writing failed."),
     ],
 }
@@ -108,7 +113,7 @@ FILES = {
                          ("curve.csv", "Curves that were wanted, and found."), *OF_ALL],
     "platen-study": [("study.csv, study.json", "A row a run; means and scatter of each case."), ("costs.csv", "What each run cost."),
                      ("plan.csv", "The runs, a line each (--plan)."), ("runs/", "Folders of the runs."), *OF_ALL],
-    "platen-report": [("pictures/report.html", "The page."), ("pictures/*.png, pictures/*.svg", "Pictures and charts."),
+    "platen-report": [("pictures/report.html", "The page."), ("pictures/*.png", "Pictures and charts; with --pictures charts as .pdf, .svg."),
                       ("fields.pvd", "With --fields: stress and damage on one grid, for ParaView.")],
 }
 

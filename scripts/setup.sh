@@ -19,15 +19,12 @@ packages=(
   git g++ cmake ninja-build pkg-config # tools
   libdeal.ii-dev                       # finite elements; brings Trilinos, MPI and UMFPACK
   libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev # specimens over MPI ranks
-  libvtk9-dev                          # VTU files, pictures
+  libvtk9-dev                          # VTU files
   libeigen3-dev voro++-dev             # particle library
   libcli11-dev nlohmann-json3-dev libfmt-dev libxxhash-dev libssl-dev # apps
   libnlopt-dev libnlopt-cxx-dev # the search of platen-calibrate
-  pybind11-dev python3-dev python3-numpy # the Python package
+  pybind11-dev python3-dev python3-numpy python3-matplotlib # the Python package, pictures
   libgtest-dev                         # tests; holds GTest's CMake configuration too
-  xvfb xauth                           # pictures where there is no display
-  libfontconfig-dev                    # and their letters: Latin, Greek, Cyrillic; Chinese, Japanese, Korean
-  fonts-dejavu-core fonts-wqy-microhei
   "${further[@]}"
   "$@"
 )

@@ -7,18 +7,28 @@
     experiment = platen.Experiment("demo_dry", set={"Platens/Friction static": 0.1}, output="results/mine")
     experiment.run()
 """
+import importlib
+
 from .errors import InputError, MissingError, NumericsError, OutputError, PlatenError
-from .results import Frames, Run, Study, Table, read_table, runs
 
-try:
-    from .experiment import Experiment, scenes, version
-except ImportError as error:  # results can be read without the compiled part
-    _missing = error
+# Loaded when asked for: numpy takes a tenth of a second, the compiled part half of one; results are read without the latter.
+_FROM = {**dict.fromkeys(("Frames", "Run", "Study", "Table", "read_table", "runs"), "results"),
+         **dict.fromkeys(("Experiment", "scenes", "version"), "experiment")}
 
-    def __getattr__(name):
-        if name in ("Experiment", "scenes", "version"):
-            raise ImportError(f"platen.{name} needs the compiled module of Platen: {_missing}")
+
+def __getattr__(name):
+    if name not in _FROM:
         raise AttributeError(f"module 'platen' has no attribute {name!r}")
+    try:
+        module = importlib.import_module("." + _FROM[name], __name__)
+    except ImportError as error:
+        raise ImportError(f"platen.{name} needs the compiled module of Platen: {error}" if _FROM[name] == "experiment" else
+                          f"platen.{name}: {error}") from None
+    return getattr(module, name)
+
+
+def __dir__():
+    return sorted({*globals(), *_FROM})
 
 
 __all__ = ["Experiment", "Frames", "InputError", "MissingError", "NumericsError", "OutputError", "PlatenError", "Run", "Study", "Table",

@@ -5,7 +5,6 @@
 #include <functional>
 
 #include "dem/measure/circumference.h"
-#include "dem/measure/coarse_grain.h"
 #include "dem/measure/cone.h"
 #include "dem/measure/cone_fit.h"
 #include "dem/measure/damage.h"
@@ -180,21 +179,6 @@ TEST(measure_bounds, what_is_no_piece_is_not_measured) {
     EXPECT_EQ(piece.roundness, 0);
     EXPECT_EQ(piece.confidence, 0);
   }
-}
-
-// A tenth of a radius across is enough to tell a strain from a plane's.
-TEST(measure_bounds, a_thin_layer_is_strained_across) {
-  SphereColumns s;
-  for (int i = -3; i <= 3; ++i)
-    for (int j = -3; j <= 3; ++j) {
-      const double z = (i + j) % 2 == 0 ? .08 : -.08;
-      s.position.push_back({1.0 * i, 1.0 * j, z});
-      s.radius.push_back(.5);
-      s.displacement.push_back({2e-3 * i, 0, .01 * z});
-    }
-  const CoarseFields f = coarse_grain(s, {{0, 0, 0}, 1, {1, 1, 1}}, 3.1);
-  EXPECT_NEAR(f.strain[0][0], 2e-3, 1e-12);
-  EXPECT_NEAR(f.strain[0][8], .01, 1e-12);
 }
 
 // Box and cylinder hold what is nearer to the axis than their walls, along each of their own widths.

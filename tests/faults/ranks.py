@@ -115,7 +115,7 @@ class Runs(faults.Figures):
         """Files that two runs do not have alike, and what differs between their newest checkpoints but for seconds."""
         names = faults.difference(faults.results(one), faults.results(other))
         if (one / "checkpoint").exists():
-            compared = faults.run([str(self.apps / "platen-report"), str(one), "--state-diff", str(other)])
+            compared = faults.run([str(self.apps / "platen"), "state", str(one), str(other)])
             if compared.returncode not in (0, 1) or (compared.returncode == 1 and "wall_seconds" not in compared.stdout):
                 names.append("checkpoint: " + compared.stdout.strip() + compared.stderr.strip())
         return names

@@ -1,0 +1,186 @@
+"""Where, when and which way bonds broke: discs in the half specimen, their density over height and distance from the axis, a rose."""
+from functools import partial
+from typing import NamedTuple
+
+import matplotlib
+import numpy
+from matplotlib.colors import Normalize, to_rgb
+
+from ..errors import InputError
+from .house import BLUE, MM, SKY, VERMILION, Picture, chart, colour_bar, legend
+from .kit import bars
+from .spheres import DAMAGE, Scene, panels
+
+FEWEST = 5  # bonds of a cell with a share
+
+
+class Cracks(NamedTuple):
+    """Broken bonds as columns. place: middle between their spheres before the test, of spheres that are not known where it broke."""
+
+    place: numpy.ndarray  # n x 3, m
+    normal: numpy.ndarray  # n x 3
+    area: numpy.ndarray  # m2
+    tension: numpy.ndarray  # else shear
+    time: numpy.ndarray  # s
+
+    def where(self, chosen):
+        return Cracks(*(column[chosen] for column in self))
+
+
+def cracks_until(run, time):
+    """Those of cracks.csv up to a time (s). InputError where a mode is neither tension nor shear."""
+    table = run.table("cracks")
+    mode = numpy.asarray(table["mode"], str)
+    wrong = numpy.flatnonzero((mode != "tension") & (mode != "shear"))
+    if len(wrong):
+        raise InputError(f'{run.folder / "cracks.csv"}:{wrong[0] + 2}: mode "{mode[wrong[0]]}" is neither tension nor shear')
+    place, normal = (numpy.column_stack([table[name] for name in names]) for names in (("x_m", "y_m", "z_m"), ("nx", "ny", "nz")))
+    if run.series("specimen") and len(mode):
+        number = run.start.fields["id"]
+        order = numpy.argsort(number)
+        rows = [order[numpy.searchsorted(number, table[name], sorter=order).clip(0, len(order) - 1)]
+                for name in ("particle_a", "particle_b")]
+        known = (number[rows[0]] == table["particle_a"]) & (number[rows[1]] == table["particle_b"])
+        place[known] = (run.start.initial[rows[0]] + run.start.initial[rows[1]])[known] / 2
+    return Cracks(place, normal, table["area_m2"], mode == "tension", table["time_s"]).where(table["time_s"] <= time)
+
+
+class Density(NamedTuple):
+    """values: rows from the bottom x columns from the axis (is_plane: from the plane x = 0) to the radius (m); broken over initial
+    bonds of the cell (is_share), NaN where these are few, else broken ones a cubic metre."""
+
+    values: numpy.ndarray
+    is_share: bool
+
+
+def density(places, bonds, extent):
+    """Counts cracks (n x 3, m) on cells about as high as wide; bonds: n x 3, of all before the test, None where they are not known.
+    What lies outside the extent is counted in the outermost cell: a box reaches to its corners, the map to its half width."""
+    columns = 12 if extent.is_plane else 8
+    rows = min(64, max(4, round(columns * extent.height / extent.half_width)))
+
+    def count(p):
+        r = numpy.abs(p[:, 0]) if extent.is_plane else numpy.hypot(p[:, 0], p[:, 1])
+        column = (r / extent.half_width * columns).astype(int).clip(0, columns - 1)
+        row = numpy.floor((p[:, 2] - extent.bottom) / extent.height * rows).astype(int).clip(0, rows - 1)
+        return numpy.bincount(row * columns + column, minlength=rows * columns).reshape(rows, columns)
+
+    broken = count(places)
+    if bonds is None:
+        high, wide = extent.height / rows, extent.half_width / columns
+        ring = numpy.pi * wide**2 * (2 * numpy.arange(columns) + 1)
+        return Density(broken / (high * (4 * extent.half_depth * wide if extent.is_plane else ring)), False)
+    all_bonds = count(bonds)
+    return Density(numpy.divide(broken, all_bonds, out=numpy.full(broken.shape, numpy.nan), where=all_bonds >= FEWEST), True)
+
+
+def _density(run):
+    bonds = run.series("bonds")
+    midpoints = bonds[0].points[bonds[0].lines()].mean(1) if bonds else None
+    return density(cracks_until(run, run.pattern_time).place, midpoints, run.extent)
+
+
+def edges(extent):
+    """Lines (n x 3, m) along the edges of the half specimen."""
+    w, d = extent.half_width, extent.half_depth
+    turn = numpy.linspace(0, 2 * numpy.pi, 97)
+    if extent.form == "disc":
+        h = extent.height / 2
+        return [numpy.column_stack([w * numpy.cos(turn), numpy.full(97, y), extent.bottom + h + h * numpy.sin(turn)]) for y in (0, -d)]
+    corners = numpy.array([[w, 0], [w, -d], [-w, -d], [-w, 0], [w, 0]])
+    if extent.form == "cylinder":
+        corners = numpy.vstack([w * numpy.column_stack([numpy.cos(turn), -numpy.sin(turn)])[:49], corners[:1]])
+    rims = [numpy.insert(corners, 2, z, axis=1) for z in (extent.bottom, extent.top)]
+    return rims + [numpy.array([[x, 0, extent.bottom], [x, 0, extent.top]]) for x in (-w, w)]
+
+
+def discs(axes, run, cracks, colours, title):
+    """The cracks of the half y < 0 as discs of their areas; colours: n x 3, or one for all. Returns the axes."""
+    scene, shown = Scene(axes, run.extent, margin=0.06), cracks.place[:, 1] <= 0
+    colours = numpy.broadcast_to(colours, cracks.place.shape)
+    scene.spheres(cracks.place[shown], numpy.sqrt(cracks.area / numpy.pi)[shown], colours[shown], cracks.normal[shown])
+    scene.show()
+    for line in edges(run.extent):
+        scene.line(line)
+    axes.set_title(title)
+    return axes
+
+
+def modes(axes, run, tension):
+    """The bonds broken in tension, or in shear, up to the fall to 0.8 of the peak."""
+    cracks = cracks_until(run, run.pattern_time)
+    cracks = cracks.where(cracks.tension == tension)
+    title = f"{len(cracks.time)} in {'tension' if tension else 'shear'} (both halves)"
+    discs(axes, run, cracks, to_rgb(VERMILION if tension else BLUE), title)
+
+
+def times(axes, run, before):
+    """The bonds broken before the peak, or after it, coloured by their time over that of the peak."""
+    cracks = cracks_until(run, run.pattern_time)
+    over_peak = cracks.time / (run.peak_time or 1)
+    norm = Normalize(over_peak.min(initial=1), over_peak.max(initial=1))
+    chosen, colours = (cracks.time < run.peak_time) == before, matplotlib.colormaps["viridis"]
+    title = f"{chosen.sum()} {'before' if before else 'after'} the peak (both halves)"
+    discs(axes, run, cracks.where(chosen), colours(norm(over_peak[chosen]))[:, :3], title)
+    if not before:
+        colour_bar(axes, colours, norm, "Time over that of the peak")
+
+
+def density_map(axes, run):
+    """Broken bonds over height and distance from the axis; the left half mirrors the right."""
+    found, extent = _density(run), run.extent
+    values = found.values if found.is_share else found.values * 1e-6
+    norm = Normalize(0, 1 if found.is_share else values.max() or 1)
+    half_width = extent.half_width * MM
+    axes.imshow(numpy.hstack([values[:, ::-1], values]), DAMAGE, norm, aspect="auto", origin="lower",
+                extent=(-half_width, half_width, 0, extent.height * MM))
+    axes.grid(False)
+    axes.xaxis.set_major_formatter(lambda x, _: f"{abs(x):g}")
+    axes.set(xlabel=f"Distance from the {'plane x = 0' if extent.is_plane else 'axis'} (mm)", ylabel="Height (mm)")
+    colour_bar(axes, DAMAGE, norm, "Broken share of the bonds" if found.is_share else "Broken bonds per cm³")
+
+
+def scatter_of_rose(area, bins):
+    """Standard deviation that each bin of the rose would have by chance if cracks of these areas (m2) faced all ways alike."""
+    p = -numpy.diff(numpy.cos(numpy.linspace(0, numpy.pi / 2, bins + 1)))
+    return numpy.sqrt((1 - p) / p * (area**2).sum()) / area.sum()
+
+
+def rose(axes, run):
+    """Area of cracks by the angle of their normals to the axis, over that of cracks that face all ways alike."""
+    values, area = numpy.array(run.info["crack_rose"], float), run.table("cracks")["area_m2"]
+    step, k = 90 / len(values), numpy.arange(len(values))
+    ends = {0: ", crack lies across", len(values) - 1: ", crack lies along"}
+    bars(axes, [f"{step * j:.0f} to {step * (j + 1):.0f}°{ends.get(j, '')}" for j in k], values, [f"{value:.2f}" for value in values],
+         "Area of cracks over that of cracks in random directions", "#777777", mark=1)
+    if len(area):
+        scatter = 2 * scatter_of_rose(area, len(values))
+        low = numpy.maximum(1 - scatter, 0)
+        axes.barh(k, 1 + scatter - low, 0.9, low, color=SKY, alpha=0.6, label="scatter of as many cracks in random directions")
+    legend(axes, above=True)
+
+
+def pictures_of_cracks(run):
+    """The Pictures of the section "Cracks" that the files of a run allow."""
+    if run.table("cracks") is None or not run.series("specimen"):
+        return []
+    extent, until = run.extent, run.pattern_words
+    wide = min(5.5, 4.4 * 2 * extent.half_width / extent.height)
+    found = _density(run)
+    white = f" White cells had fewer than {FEWEST} bonds before the test, too few for a share." if numpy.isnan(found.values).any() else ""
+    pictures = [
+        panels("cracks", f"Bonds broken until {until} as discs of their size, in the half specimen: in tension (left), in shear (right).",
+               [partial(modes, run=run, tension=kind) for kind in (True, False)], [extent], margin=0.06),
+        panels("crack_times", f"The same discs by the time when they broke, until {until}: before the peak (left) and after it (right). "
+               "Where the right half is empty, no bond broke after the peak.",
+               [partial(times, run=run, before=kind) for kind in (True, False)], [extent], True, margin=0.06),
+        Picture("crack_density", f"Bonds broken until {until} over the height and the distance from the "
+                f"{'plane x = 0' if extent.is_plane else 'axis'}; the left half mirrors the right.{white}",
+                [[partial(density_map, run=run)]], wide * extent.height / (2 * extent.half_width), wide + 0.72 + 0.95, bar=True)]
+    if isinstance(run.info.get("crack_rose"), list) and run.info["crack_rose"][:1] not in ([], [None]):
+        pictures.append(chart(
+            "crack_rose", "The angle between the normal of a crack and the axis of the specimen, all of the run. Beyond the line there are "
+            "more cracks than if they faced all ways alike. At 90 degrees cracks run along the specimen: it splits. A bar that ends in the "
+            "blue band (two standard deviations) may differ from the line by chance.", partial(rose, run=run), heights=3, margin=1.9,
+            titles=True))
+    return pictures

@@ -1,0 +1,362 @@
+"""What platens and specimen do to each other: friction, pressure and shear on the ends, loads along strips, which spheres slide."""
+import math
+import re
+from functools import lru_cache, partial
+from typing import NamedTuple
+
+import numpy
+from matplotlib import colormaps, colors
+
+from ..errors import InputError
+from .fields import has_stress, near_peak, picture_of_stress_flow, point_data
+from .house import BLACK, BLUE, GREEN, GREY, MM, MPA, MS, VERMILION, Picture, chart, colour_bar, legend, span
+from .run import SIDES, STRESS
+
+_UPRIGHT = 0.7  # of a normal; contacts at the rim of a platen may press aslant, those of a sleeve press sideways
+_RINGS = 5  # of equal area; the outermost is wider than a sphere's radius
+_FEW = 8  # spheres
+_MOST_OVER_MEAN = 2.5  # of colours of pressure
+
+
+class Contacts(NamedTuple):
+    """Of one platen in one frame, in its plane: (x, y) of top and bottom, (y, z) of left and right, (x, z) of front and back."""
+
+    x: numpy.ndarray  # m
+    y: numpy.ndarray  # m
+    normal_force: numpy.ndarray  # N, pressing
+    inward_shear: numpy.ndarray  # N, on the specimen, towards the origin of the plane
+    sliding: numpy.ndarray
+    shear_force: numpy.ndarray  # N, size
+    slip: numpy.ndarray  # m, until now
+
+
+def axis_of(side):
+    """0 x, 1 y, 2 z."""
+    return (2, 0, 1)[SIDES.index(side) // 2]
+
+
+def plane_of(side):
+    """Axes of a picture of the side, across and up: 0 x, 1 y, 2 z."""
+    return ((1, 2), (0, 2), (0, 1))[axis_of(side)]
+
+
+def sides_of(run):
+    """Names of the sides that have platens, as the columns of the history say: bottom and top, and further ones of a box."""
+    return [side for k, side in enumerate(SIDES) if axis_of(side) == 2 or run.has(STRESS[axis_of(side)][k % 2])]
+
+
+def style(side):
+    """Colour and line of a side in every chart: a colour an axis, the high side dashed."""
+    k = SIDES.index(side)
+    return {"color": (BLUE, VERMILION, GREEN)[k // 2], "ls": "--" if k % 2 else "-"}
+
+
+def contacts_of(run, side, time):
+    """Contacts of a platen in the frame nearest to a time. Those that press upwards are the bottom platen's, and so on; those
+    of a sleeve press sideways: they are no platen's as long as nobody asks for one there. InputError where an array is missing."""
+    grid = run.grid("contacts", time)
+    normal, shear, force, sliding, slip = point_data(grid, run.folder / "contacts.pvd", normal=3, shear=3, normal_force=1, sliding=1,
+                                                     slip=1)
+    inward = -1 if SIDES.index(side) % 2 else 1
+    here = inward * normal[:, axis_of(side)] > _UPRIGHT
+    (x, y), along = grid.points[here][:, plane_of(side)].T, shear[here][:, plane_of(side)]
+    away = numpy.hypot(x, y)
+    inwards = -numpy.divide(along[:, 0] * x + along[:, 1] * y, away, out=numpy.zeros(len(x)), where=away > 0)
+    return Contacts(x, y, force[here], inwards, sliding[here] != 0, numpy.linalg.norm(shear[here], axis=1), slip[here])
+
+
+def _number(run, path, unit):
+    """SI, of an entry of the scene; NaN where it has none. InputError where it is no number of the unit, "1" or "m"."""
+    text, value = run.entry(path), run.number(path)
+    if text and (math.isnan(value) or not re.search({"1": r"([\d.%]|percent)$", "m": r"([\d.]|m|inch)$"}[unit], text)):
+        raise InputError(f"{run.folder / 'scene.prm'}: {path} = {text} is no number" + (" in a unit of length" if unit == "m" else ""))
+    return value
+
+
+# ---- friction
+def friction_limits(run, side):
+    """Coefficients of friction of a platen (at rest, sliding), as the scene says for it, else for all; NaN where it says none."""
+
+    def entry(key):
+        own = _number(run, f"Platens/{side.capitalize()}/{key}", "1")
+        return _number(run, f"Platens/{key}", "1") if math.isnan(own) else own
+
+    rest, sliding = entry("Friction static"), entry("Friction dynamic")
+    return rest, rest if math.isnan(sliding) else sliding
+
+
+def is_glued(run):
+    """Whether the scene glues the ends to the platens."""
+    return run.entry("Platens/Attachment") == "glued"
+
+
+def friction_words(run):
+    """Coefficients of friction of each platen, ["bottom 0.57, sliding 0.5"], or ["glued"]; [] where the scene says none."""
+    if is_glued(run):
+        return ["glued"]
+    limits = {side: friction_limits(run, side) for side in sides_of(run)}
+    return [f"{side} {rest:.4g}" + (f", sliding {sliding:.4g}" if sliding != rest else "")
+            for side, (rest, sliding) in limits.items() if not math.isnan(rest)]
+
+
+def ratio(parts, wholes):
+    """Sum of parts over sum of wholes, and its standard error by the scatter of the single ones (NaN of one); NaN without any."""
+    n, whole = len(parts), wholes.sum()
+    if not whole > 0:
+        return math.nan, math.nan
+    value = parts.sum() / whole
+    return value, math.sqrt(n / (n - 1) * ((parts - value * wholes) ** 2).sum()) / whole if n > 1 else math.nan
+
+
+def friction_state(contacts):
+    """What one platen's contacts do together, each with its standard error: share of them that slide; friction over pressing
+    force; mean slip, each as heavy as it presses (m). NaN where nothing presses."""
+    one = numpy.ones(len(contacts.x)) * (contacts.normal_force.sum() > 0)
+    return numpy.array([ratio(contacts.sliding * one, one), ratio(contacts.shear_force, contacts.normal_force),
+                        ratio(contacts.slip * contacts.normal_force, contacts.normal_force)])
+
+
+@lru_cache(maxsize=4)
+def _states(run):
+    """By side: frames x (share, friction, slip) x (value, error)."""
+    return {side: numpy.array([friction_state(contacts_of(run, side, time)) for time in run.series("contacts").times])
+            for side in sides_of(run)}
+
+
+def has_friction(run):
+    """Whether spheres press on top or bottom, which they are not glued to, in any frame."""
+    return not is_glued(run) and any(numpy.isfinite(_states(run)[side][:, 1, 0]).any() for side in ("bottom", "top"))
+
+
+def _stages(axes, run, words=False):
+    """Stretches of the test, named at the top."""
+    if run.zero > 0:
+        span(axes, run.h["time_s"][0] * MS, run.h["time_s"][run.zero] * MS, "consolidation" if words else "")
+    axes.axvline(run.peak_time * MS, color=GREY, lw=0.8)
+    if words:
+        axes.annotate("peak", (run.peak_time * MS, 1), xycoords=("data", "axes fraction"), ha="center", va="bottom", fontsize=8)
+    axes.set(xlabel="Time (ms)", xlim=(0, run.end_time * MS))
+
+
+def _friction_curve(axes, run, which, factor=1):
+    for side, states in _states(run).items():
+        value, error = states[:, which].T * factor
+        time = run.series("contacts").times * MS
+        axes.plot(time, value, label=side, **style(side))
+        axes.fill_between(time, value - error, value + error, color=style(side)["color"], alpha=0.15, lw=0)
+    axes.set_ylim(0, None if any(numpy.nanmax(states[:, which, 0], initial=0) > 0 for states in _states(run).values()) else 1)
+
+
+def sliding_share(axes, run):
+    """Share of the contacts that slide, over time."""
+    _friction_curve(axes, run, 0)
+    _stages(axes, run)
+    axes.set_ylabel("Share that slides")
+    legend(axes, above=True, ncols=6)
+
+
+def friction(axes, run):
+    """Friction over pressing force, over time, with the limits of the scene."""
+    _friction_curve(axes, run, 1)
+    limits = {}
+    for side in sides_of(run):
+        for words, limit in zip(("static", "sliding"), friction_limits(run, side)):
+            if not math.isnan(limit):
+                limits.setdefault(limit, words)
+    for limit, words in limits.items():
+        axes.axhline(limit, color=GREY, ls=":", lw=1)
+        axes.annotate(f"limit, {words}: {limit:.3g}", (1, limit), xycoords=("axes fraction", "data"), ha="right", va="bottom", fontsize=8)
+    _stages(axes, run, words=True)
+    axes.set(ylabel="Friction / pressure", ylim=(0, max(axes.get_ylim()[1], 1.2 * max(limits, default=0))))
+
+
+def slip(axes, run):
+    """Mean slip over time."""
+    _friction_curve(axes, run, 2, 1e6)
+    _stages(axes, run)
+    axes.set_ylabel("Slip (µm)")
+
+
+def friction_work(axes, run):
+    """Work of friction over time: of each platen where the history has it, and of all."""
+    for side in sides_of(run):
+        if run.has(f"friction_work_{side}_j"):
+            axes.plot(run.h["time_s"] * MS, run.h[f"friction_work_{side}_j"], label=side, **style(side))
+    if run.has("friction_work_j"):
+        whole = axes.plot(run.h["time_s"] * MS, run.h["friction_work_j"], color=BLACK, label="platens and grains")
+        legend(axes, loc="upper left", handles=whole)
+    _stages(axes, run)
+    axes.set_ylabel("Work (J)")
+
+
+# ---- pressure
+def sums(values, part, parts):
+    """By part: the sum of its values, their number, and the standard error of the sum by the scatter of the values (of a single one:
+    itself)."""
+    n = numpy.bincount(part, minlength=parts)
+    total = numpy.bincount(part, values, parts)
+    scatter = numpy.bincount(part, (values - (total / numpy.maximum(n, 1))[part]) ** 2, parts)
+    return total, n, numpy.where(n > 1, numpy.sqrt(n / numpy.maximum(n - 1, 1) * scatter), numpy.abs(total))
+
+
+def ring_profile(contacts, radius, rings=_RINGS):
+    """Of rings of equal area from the axis to radius (m): the radius that halves each (m); pressure and inward shear, (value, standard
+    error) x rings, Pa; number of spheres. The outermost holds what lies beyond."""
+    part = numpy.minimum(rings - 1, (contacts.x**2 + contacts.y**2) / radius**2 * rings).astype(int)
+    area = math.pi * radius**2 / rings
+    (pressure, n, error), (shear, _, of_shear) = sums(contacts.normal_force, part, rings), sums(contacts.inward_shear, part, rings)
+    middle = radius * numpy.sqrt((numpy.arange(rings) + 0.5) / rings)
+    return middle, numpy.array([pressure, error]) / area, numpy.array([shear, of_shear]) / area, n
+
+
+def profile(axes, run, shear=False):
+    """Pressure on both platens, or shear on the ends, over the radius near the peak. Round specimens."""
+    for side in ("bottom", "top"):
+        middle, *stresses, n = ring_profile(contacts_of(run, side, run.peak_time), run.extent.half_width)
+        value, error = stresses[shear] * MPA
+        axes.errorbar(middle * MM, value, error, label=f"{side} platen", capsize=3, elinewidth=0.8, marker="os"[side == "top"],
+                      **style(side))
+        axes.scatter(middle[n < _FEW] * MM, value[n < _FEW], 4, "white", zorder=5)
+    axes.set(xlabel="Distance from the axis (mm)", ylabel="Inward shear (MPa)" if shear else "Pressure (MPa)",
+             xlim=(0, run.extent.half_width * MM))
+    if not shear:
+        legend(axes, above=True)
+
+
+def face_pressure(contacts, low, high, square):
+    """Means of the normal force over squares of about that edge (m) of a face from low to high: Pa, rows from below x columns. What lies
+    beyond counts at its border."""
+    edges = numpy.subtract(high, low)
+    columns, rows = counts = numpy.maximum(1, edges / square + 0.5).astype(int)
+    place = numpy.floor((numpy.stack([contacts.x, contacts.y], axis=1) - low) / edges * counts)
+    column, row = numpy.clip(place, 0, counts - 1).astype(int).T
+    force = numpy.bincount(row * columns + column, contacts.normal_force, columns * rows)
+    return force.reshape(rows, columns) / (edges / counts).prod()
+
+
+def _box(run):
+    """Low and high corner of the specimen, m."""
+    extent = run.extent
+    return numpy.array([[-extent.half_width, -extent.half_depth, extent.bottom], [extent.half_width, extent.half_depth, extent.top]])
+
+
+def _face_size(run):
+    """Across and up, m, of what all sides of the specimen fit into."""
+    return numpy.max([numpy.ptp(_box(run), 0)[list(plane_of(side))] for side in sides_of(run)], axis=0)
+
+
+def _face(axes, run, side):
+    """Limits and titles of a picture of a face; all sides in one scale. Returns its low and high corner, m."""
+    corners, size = _box(run)[:, plane_of(side)], _face_size(run)
+    (left, low), (right, high) = (corners.mean(0) + sign * 0.525 * size for sign in (-1, 1))
+    across, up = ("xyz"[axis] for axis in plane_of(side))
+    axes.set(xlabel=f"{across} (mm)", ylabel=f"{up} (mm)", xlim=(left * MM, right * MM), ylim=(low * MM, high * MM))
+    axes.set_box_aspect(size[1] / size[0])
+    return corners
+
+
+def face(axes, run, side, bar=True):
+    """Pressure on a platen of a box over its face near the peak, over the mean of the platen, in squares of two spheres an edge."""
+    low, high = _face(axes, run, side)
+    pressure = face_pressure(contacts_of(run, side, run.peak_time), low, high, 4 * run.mean_radius)
+    ramp, norm, mean = colormaps["viridis"].copy(), colors.Normalize(0, _MOST_OVER_MEAN), pressure.mean()
+    ramp.colorbar_extend = "max"
+    axes.imshow(pressure / mean if mean > 0 else pressure, cmap=ramp, norm=norm, origin="lower", aspect="auto",
+                extent=numpy.ravel([low, high], "F") * MM)
+    axes.grid(False)
+    axes.set_title(f"{side}: mean {mean * MPA:.3g} MPa")
+    if bar:
+        colour_bar(axes, ramp, norm, "Pressure / mean")
+
+
+def stick_and_slip(axes, run, side):
+    """Every sphere at a platen near the peak in its plane: whether it sticks or slides. Areas go by the pressing force."""
+    contacts = contacts_of(run, side, run.peak_time)
+    _face(axes, run, side)
+    force = numpy.abs(contacts.normal_force)
+    area = 22 * len(force) * force / (force.sum() or 1)
+    for chosen, mark, colour, words in ((~contacts.sliding, "o", BLUE, f"{side}: {(~contacts.sliding).sum()} stick"),
+                                        (contacts.sliding, "x", VERMILION, f"{contacts.sliding.sum()} slide")):
+        axes.plot([], [], mark, color=colour, label=words)
+        axes.scatter(contacts.x[chosen] * MM, contacts.y[chosen] * MM, area[chosen], colour, mark, lw=1 if mark == "x" else 0,
+                     rasterized=len(area) > 500)
+    legend(axes, above=True, columnspacing=0.8, handletextpad=0.1)
+
+
+# ---- strips
+def has_strips(run):
+    """Whether strips press, not whole platens: as the scene says."""
+    return _number(run, "Platens/Strip width", "m") > 0
+
+
+def load_along(contacts, half_depth, parts):
+    """Load along a strip and its standard error, N/m, in equal parts of the depth from -half_depth to half_depth (m) along y."""
+    length = 2 * half_depth / parts
+    total, _, error = sums(contacts.normal_force, numpy.clip((contacts.y + half_depth) // length, 0, parts - 1).astype(int), parts)
+    return total / length, error / length
+
+
+def strip_loads(axes, run):
+    """Load along each strip near the peak; two supports apart."""
+    half = run.extent.half_depth
+    parts = max(3, int(half / (2 * run.mean_radius)))  # so that most have a sphere at least
+    top, below = (contacts_of(run, side, run.peak_time) for side in ("top", "bottom"))
+    strips = {"top": (top, BLUE, "--")}
+    if _number(run, "Platens/Span", "m") > 0:
+        for name, here, colour in (("left support", below.x < 0, VERMILION), ("right support", below.x >= 0, GREEN)):
+            strips[name] = Contacts(*(values[here] for values in below)), colour, "-"
+    else:
+        strips["bottom"] = below, BLUE, "-"
+    edges = numpy.linspace(-half, half, parts + 1) * MM
+    for k, (name, (contacts, colour, line)) in enumerate(strips.items()):
+        load, error = (values * 1e-3 for values in load_along(contacts, half, parts))
+        axes.plot(numpy.repeat(edges, 2)[1:-1], numpy.repeat(load, 2), color=colour, ls=line, label=name)
+        places = edges[:-1] + (edges[1] - edges[0]) * (k + 1) / (len(strips) + 1)
+        axes.errorbar(places, load, error, fmt="none", ecolor=colour, elinewidth=0.8, capsize=3)
+    axes.set(xlabel="y, along the strips (mm)", ylabel="Load (kN/m)", xlim=(edges[0], edges[-1]))
+    legend(axes, above=True)
+
+
+# ---- pictures
+def _faces(name, caption, draw, run, bar):
+    """A Picture of all sides with platens; of more than two, the low ones are below the high ones of their axis."""
+    sides = sides_of(run)
+    rows = [sides] if len(sides) == 2 else [sides[1::2], sides[::2]]
+    size = _face_size(run)
+    width = (7.6 - 0.72 * len(rows[0]) - (0.95 if bar else 0.15)) / len(rows[0])
+    more = (lambda side: {"bar": side == rows[0][-1]}) if bar else (lambda side: {})
+    return Picture(name, caption, [[partial(draw, run=run, side=side, **more(side)) for side in row] for row in rows],
+                   width * size[1] / size[0], bar=bar, titles=True)
+
+
+def pictures_of_ends(run):
+    """The Pictures of the section "Platens and ends" that the files of a run allow."""
+    if run.series("contacts") is None:
+        return []
+    found = [picture_of_stress_flow(run)] if has_stress(run) else []
+    if has_friction(run):
+        found.append(chart(
+            "friction", "Friction between specimen and platens over time. From the top: the share of the spheres at each platen that "
+            "slide; friction over pressure, with the limits of the scene; the mean slip, weighted by pressure; the work of friction. A "
+            "platen does not slide as a whole while its friction is below the limit. Shaded: one standard error by the scatter of the "
+            "spheres.",
+            *(partial(draw, run=run) for draw in (sliding_share, friction, slip, friction_work)), heights=[1.5, 1.9, 1.5, 1.5],
+            shared=True, titles=True))
+    near, of_spheres = near_peak(run, "contacts"), "one standard error by the scatter of the spheres"
+    if has_strips(run):
+        found.append(chart("strip_loads", f"Load along each strip {near}. Under an even load all steps have one height. Error bars: "
+                           f"{of_spheres} in a step.", partial(strip_loads, run=run), heights=3, titles=True))
+    elif len(sides_of(run)) > 2 or run.extent.form == "box":
+        found.append(_faces("side_pressure", f"Pressure on each platen over the face of the specimen {near}, over the mean of that platen. "
+                            "A square has an edge of two spheres, so single spheres show. In dark squares little or nothing presses.",
+                            face, run, bar=True))
+    elif run.extent.form == "cylinder":
+        found.append(chart(
+            "platen_pressure", f"Pressure on the platens and shear on the ends over the radius {near}, in five rings of equal area. Inward "
+            f"shear confines an end; negative pressure is tension. Error bars: {of_spheres} in a ring; a mark with a white centre: fewer "
+            f"than {_FEW} spheres.", partial(profile, run=run), partial(profile, run=run, shear=True), heights=2.4, shared=True,
+            titles=True))
+    if not is_glued(run):
+        found.append(_faces("stick_slip", f"Spheres at each platen {near}: which stick and which slide. The larger a mark, the larger its "
+                            "pressing force.", stick_and_slip, run, bar=False))
+    return found

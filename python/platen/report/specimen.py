@@ -1,0 +1,272 @@
+"""The specimen, whole or cut at y = 0: displacement, damage, what moves with each platen with the cones fitted to it, fragments;
+halves of several runs side by side."""
+import math
+from functools import partial
+from typing import NamedTuple
+
+import matplotlib
+import numpy
+from matplotlib.colors import Normalize, to_rgb
+from matplotlib.ticker import MaxNLocator
+
+from .house import BLACK, BLUE, GREEN, MM, ORANGE, PURPLE, SKY, VERMILION, colour_bar
+from .kit import reading
+from .run import number_in
+from .spheres import DAMAGE, HALO, RUBBER, Scene, panels, seen
+
+VIRIDIS = matplotlib.colormaps["viridis"]
+PALE = "#e1e1e1"
+FRAGMENTS = numpy.array([to_rgb(c) for c in (PALE, GREEN, PURPLE, SKY, "#f0e442", VERMILION, "#8c564b", BLACK)])
+WITH_PLATENS = numpy.array([to_rgb(c) for c in (PALE, BLUE, ORANGE)])
+SMALLEST = 30  # spheres of a fragment that has a colour
+_DAMAGE = "coloured by the broken share of the bonds of each sphere. Grey: no bond is broken."
+_FRAGMENTS = (f"Each colour is a fragment of {SMALLEST} or more spheres that intact bonds hold together; green is the largest. Grey: "
+              "smaller fragments.")
+FOOT = 0.48  # inches, of a colour bar below a panel
+
+
+def half(spheres, turn=numpy.eye(3)):
+    """Rows of what stays when y > 0 is taken away, as the specimen was before the test: spheres do not come and go as they move."""
+    return numpy.flatnonzero(spheres.initial @ turn[1] <= 0)
+
+
+def outward(run, spheres):
+    """m, one a sphere: away from the axis; of a disc or a long bar from the plane x = 0."""
+    return numpy.sign(spheres.initial[:, 0]) * (spheres.position - spheres.initial)[:, 0] if run.extent.is_plane else spheres.outward
+
+
+def top_of(values):
+    """What 95 of 100 values do not exceed: a few splinters must not take the colours from the rest; not below 0."""
+    return max(0.0, float(numpy.sort(values)[int(0.95 * (len(values) - 1))])) if len(values) else 0.0
+
+
+def fragment_colours(spheres):
+    """Row of FRAGMENTS of each sphere: 0 for those of small fragments and of all but the seven largest."""
+    count = numpy.bincount(spheres.fragment.astype(int))
+    return numpy.where((spheres.fragment < len(FRAGMENTS) - 1) & (count >= SMALLEST)[spheres.fragment.astype(int)], spheres.fragment + 1, 0)
+
+
+def draw(axes, run, time, colours, title="", whole=False, sleeve=False, turn=numpy.eye(3), **room):
+    """The specimen, the platens and a sleeve at a time, cut at y = 0 or whole; colours: n x 3, one a sphere. Returns the Scene."""
+    spheres, scene = run.spheres(time), Scene(axes, run.extent, **room)
+    rows = numpy.arange(len(spheres.radius)) if whole else half(spheres, turn)
+    scene.spheres(spheres.position[rows] @ turn.T, spheres.radius[rows], colours[rows])
+    if run.series("platens"):
+        before = 0 if not whole else 0.9 * run.extent.half_depth if _is_held_aside(run) else math.inf
+        scene.bodies(run.grid("platens", time), run.folder / "platens.pvd", before=before, turn=turn)
+    if sleeve:
+        scene.bodies(run.grid("sleeve", time), run.folder / "sleeve.pvd", RUBBER, 0)
+    scene.show()
+    axes.set_title(title, fontsize=max(6, min(9, 130 * axes.bbox.width / axes.figure.dpi / (len(title) or 1))))  # long names of runs
+    return scene
+
+
+def _is_held_aside(run):
+    """Whether platens stand at the sides of a box."""
+    return any(run.has(f"stress_{side}_pa") for side in ("left", "front"))
+
+
+def field(axes, run, time, values, label, title="", norm=None, colours=VIRIDIS, bar=False, **more):
+    """Coloured by values, one a sphere: in a scale of this panel, which stands below it, or in that of a norm, at the right with
+    `bar`."""
+    if norm is not None:
+        draw(axes, run, time, colours(norm(values))[:, :3], title, **more)
+        if bar:
+            colour_bar(axes, colours, norm, label)
+        return
+    top = top_of(values if more.get("whole") else values[half(run.spheres(time))])
+    norm = Normalize(0, top or 1)
+    draw(axes, run, time, colours(norm(values))[:, :3], title, foot=FOOT, **more)
+    inch = axes.figure.dpi / axes.bbox.height
+    if top == 0:
+        axes.text(0.5, 0.02 * inch, f"{label}: not above 0", transform=axes.transAxes, ha="center", va="bottom")
+    else:
+        axes.figure.colorbar(matplotlib.cm.ScalarMappable(norm, colours), cax=axes.inset_axes([0.2, 0.32 * inch, 0.6, 0.1 * inch]),
+                             orientation="horizontal", label=label, extend="max", ticks=MaxNLocator(3))
+
+
+def displacement(axes, run, time, title="", **more):
+    """The size of the displacement (mm), see `field`; whole=True: of the specimen from outside."""
+    field(axes, run, time, run.spheres(time).displacement * MM, "Displacement (mm)", title, **more)
+
+
+def outward_displacement(axes, run, time, title="", **more):
+    """The half by outward displacement (mm), see `field`."""
+    field(axes, run, time, outward(run, run.spheres(time)) * MM, "Outward displacement (mm)", title, **more)
+
+
+def damage(axes, run, time, title="", **more):
+    """The half by the broken share of the bonds of each sphere."""
+    field(axes, run, time, run.spheres(time).damage, "Broken share\nof the bonds", title, Normalize(0, 1), DAMAGE, **more)
+
+
+def fragments(axes, run, time, title="", **more):
+    """The half, fragments of 30 and more spheres in colours."""
+    draw(axes, run, time, FRAGMENTS[fragment_colours(run.spheres(time))], title, **more)
+
+
+class Cone(NamedTuple):
+    """One that was fitted to what moves with a platen, in the specimen before the test."""
+
+    half_angle: float  # rad
+    confidence: float
+    base: float  # r0, radius at the platen over that of the specimen
+    apex: numpy.ndarray  # m
+    axis: numpy.ndarray  # from the apex towards the platen
+
+    def turned(self, turn):
+        return self._replace(apex=turn @ self.apex, axis=turn @ self.axis)
+
+    @property
+    def words(self):
+        return f"{math.degrees(self.half_angle):.0f} degrees, r0 = {self.base:.2f} (confidence {self.confidence:.2f})"
+
+
+def cone_of(run, end, final):
+    """The Cone on "top" or "bottom" of a run, of the fall to 0.8 of the peak or of the end; False where none was found, None where
+    none was looked for."""
+    start = "final_" if final else ""
+    if not run.info.get(f"{start}dead_zone_{end}"):
+        return None
+    found = run.info.get(f"{start}cone_{end}")
+    if not found:
+        return False
+    with reading(run.folder / "summary.json"):
+        return Cone(math.radians(number_in(found, "half_angle_deg")), number_in(found, "confidence"), number_in(found, "base_ratio"),
+                    numpy.array(found["apex_m"], float), numpy.array(found["axis"], float))
+
+
+def turn_to(cones, height):
+    """3 x 3: turns the specimen about its axis so that the apexes and axes of its cones lie nearest to y = 0; an axis counts as
+    far as it reaches over a third of the height (m), where cones end."""
+    x, y = numpy.array([place for cone in cones if cone for place in (cone.apex[:2], height / 3 * cone.axis[:2])]).reshape(-1, 2).T
+    angle = 0.5 * math.atan2(2 * (x * y).sum(), (x * x - y * y).sum())
+    c, s = math.cos(angle), math.sin(angle)
+    return numpy.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
+
+
+def section(cone, base, half_width):
+    """Where the flank of a cone meets the plane y = 0: n x 2, x and z (m), from its base at the height `base` up one side over the tip
+    and down the other. At the base it is as wide as was measured, r0 times the half width, and nowhere wider. Empty where there
+    is no closed section."""
+    z = numpy.linspace(base, cone.apex[2], 121)
+    squared, rim = math.cos(cone.half_angle) ** 2, cone.base * half_width
+    # On the plane, at height z, (w . axis)^2 = cos^2 w^2 with w from the apex is quadratic in w_x.
+    a, wy, wz = squared - cone.axis[0] ** 2, -cone.apex[1], z - cone.apex[2]
+    along = wy * cone.axis[1] + wz * cone.axis[2]
+    half_b = cone.axis[0] * along
+    root = half_b**2 + a * (along**2 - squared * (wy**2 + wz**2))
+    count = numpy.argmax(root < 0) if (root < 0).any() else len(z)  # above it there is no section
+    if a <= 0 or count == 0:
+        return numpy.empty((0, 2))
+    low, high = (numpy.clip(cone.apex[0] + (half_b + sign * numpy.sqrt(numpy.maximum(root, 0)))[:count] / a, -rim, rim) for sign in (-1, 1))
+    x = numpy.concatenate([[-rim], low, high[::-1], [rim]])
+    return numpy.column_stack([x, numpy.concatenate([[base], z[:count], z[:count][::-1], [base]])])
+
+
+def carried(cone, spheres):
+    """m, 3: how far the spheres in a cone have moved; medians, so that those that fell out of it do not count."""
+    w = spheres.initial - cone.apex
+    inside = w @ cone.axis > math.cos(cone.half_angle) * numpy.linalg.norm(w, axis=1)
+    return numpy.median((spheres.position - spheres.initial)[inside], 0) if inside.any() else numpy.zeros(3)
+
+
+def cones(axes, run, time, title="", **more):
+    """The half by what moves with the bottom platen (blue) and the top one (orange), with outlines of the cones: of the end after the
+    fall to 0.8 of the peak, else of the fall. A cylinder is turned so that the cut lies along their axes."""
+    final, extent = time > run.pattern_time, run.extent
+    found = {end: cone_of(run, end, final) for end in ("top", "bottom")}
+    turn = turn_to(found.values(), extent.height) if extent.form == "cylinder" else numpy.eye(3)
+    spheres = run.spheres(time)
+    scene = draw(axes, run, time, WITH_PLATENS[spheres.moves_with.astype(int)], title, turn=turn, **more)
+    for end, cone in found.items():
+        base, sign = (extent.top, -1) if end == "top" else (extent.bottom, 1)
+        words = "" if cone is None else "no cone"
+        if cone:
+            outline = section(cone.turned(turn), base, extent.half_width)
+            moved = turn @ carried(cone, spheres)
+            places = numpy.insert(outline, 1, 0, axis=1) + moved
+            for colour, width in (("white", 3.5), ("black", 1.5)):
+                scene.line(places, color=colour, lw=width)
+            names = ("half-angle ", "r0 = ", "confidence\n") if axes.bbox.width > 2.5 * axes.figure.dpi else ("", "", "")
+            values = (f"{math.degrees(cone.half_angle):.0f}°", f"{cone.base:.2f}", f"{cone.confidence:.2f}")
+            words = "\n".join(map(str.__add__, names, values))
+        height = float(seen([[0, 0, base + sign * 0.09 * extent.height]])[1])
+        axes.text(0.01, height, words, transform=axes.get_yaxis_transform(), va="center", fontsize=8, path_effects=HALO)
+
+
+def cones_caption(run):
+    text = ""
+    for final, when in ((False, run.pattern_words), (True, "the end")):
+        both = [(where, cone_of(run, end, final)) for where, end in (("on the top platen", "top"), ("on the bottom platen", "bottom"))]
+        if any(cone is not None for _, cone in both):
+            words = [f"{where} {cone.words if cone else 'not measured' if cone is None else 'none'}" for where, cone in both]
+            text += f" Cones at {when}, half-angles: {', '.join(words)}."
+    return ("Half specimen, cut along the axes of the cones. Blue spheres have moved with the bottom platen since the peak, orange "
+            f"ones with the top platen.{text} Outlines: the cones fitted to these spheres, at the platen as wide as measured: r0 times the "
+            "radius of the specimen.")
+
+
+def _has_cones(run):
+    return run.fall_time is not None and run.spheres(run.end_time).moves_with is not None
+
+
+def _has_fragments(run):
+    return run.start.fragment is not None
+
+
+def _row(name, caption, act, shown, has_bar=False, foot=0.0, **more):
+    """A Picture of act(axes, run, time, title) for each of `shown`, in one size; has_bar: with a scale at the right."""
+    extents = [run.extent for run, _, _ in shown]
+    more["size"] = (max(e.half_width for e in extents), max(e.height for e in extents))
+    draws = [partial(act, run=run, time=time, title=title, **more) for run, time, title in shown]
+    if has_bar:
+        draws[-1].keywords["bar"] = True
+    return panels(name, caption, draws, extents, has_bar, foot)
+
+
+def pictures_of_specimen(run):
+    """The Pictures of the section "Specimen" that the files of a run allow."""
+    if not run.series("specimen"):
+        return []
+    end = (run, run.end_time, "at the end")
+    moments = [(run, run.start.time, "before the test"), (run, run.peak_time, "near the peak"), end]
+    judged = [end] if run.fall_time is None else [(run, run.fall_time, f"at {run.pattern_words}"), end]
+    scales = "Each panel has its own scale. The largest 5 % have the last colour."
+    aside = " The platen in front of it is not drawn." if _is_held_aside(run) else ""
+    pictures = [
+        _row("specimen_outside", f"The specimen from outside, along y and a little from above; x points to the left.{aside} Colours: "
+             f"how far each sphere has moved. {scales}", displacement, moments, foot=FOOT, whole=True),
+        _row("specimen_inside", f"The same specimen cut in half at y = 0. {scales}", displacement, moments, foot=FOOT),
+        _row("outward_displacement", "Half specimen, coloured by how far each sphere has moved away from the "
+             f"{'plane x = 0' if run.extent.is_plane else 'axis'}. Cones stay dark; what they push aside is light. Inward displacement "
+             f"has the colour of 0. {scales}", outward_displacement, judged, foot=FOOT),
+        _row("damage", f"Half specimen, {_DAMAGE}", damage, judged, True)]
+    if _has_cones(run):
+        pictures.append(_row("cones", cones_caption(run), cones, judged))
+    if _has_fragments(run):
+        pictures.append(_row("fragments", f"Half specimen. {_FRAGMENTS}", fragments, judged))
+    return pictures
+
+
+def comparison(runs):
+    """Pictures of the halves of several runs side by side, in one scale; runs without frames, or without the quantity, are left out."""
+    runs = [run for run in runs if run.series("specimen")]
+    if not runs:
+        return []
+    end = [(run, run.end_time, run.name) for run in runs]
+    judged = [(run, run.pattern_time, run.name + (" (at the end)" if run.fall_time is None else "")) for run in runs]
+    values = numpy.concatenate([outward(run, run.spheres(time))[half(run.spheres(time))] for run, time, _ in end]) * MM
+    pictures = [
+        _row("comparison_displacement", "Half specimens at the end, coloured by outward displacement, all in one scale. What is dark has "
+             "hardly moved outwards. The largest 5 % have the last colour.", outward_displacement, end, True,
+             norm=Normalize(0, top_of(values) or 1)),
+        _row("comparison_damage", f"Half specimens at the fall to 0.8 of the peak, {_DAMAGE}", damage, judged, True)]
+    with_cones, with_fragments = [one for one in judged if _has_cones(one[0])], [one for one in end if _has_fragments(one[0])]
+    if with_cones:
+        pictures.append(_row("comparison_cones", "Half specimens at the fall to 0.8 of the peak. Blue spheres have moved with the bottom "
+                             "platen since the peak, orange ones with the top platen. Outlines: the cones fitted to these spheres. "
+                             "Numbers: half-angle, r0 (radius at the platen over that of the specimen), confidence.", cones, with_cones))
+    if with_fragments:
+        pictures.append(_row("comparison_fragments", f"Half specimens at the end. {_FRAGMENTS}", fragments, with_fragments))
+    return pictures
