@@ -13,7 +13,7 @@ import sys
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent
 PAGE = SOURCE / "docs/troubleshooting.md"
-FOLDERS = ("apps", "coupling", "dem", "fem", "base", "dist")
+FOLDERS = ("apps", "coupling", "dem", "fem", "base", "dist", "python")
 NEAR = 400  # characters between two parts of one message
 FEWEST = 25  # messages of a page that helps
 
@@ -41,7 +41,7 @@ def stands_in(message, words):
 
 def main():
     texts = [words_of(path.read_text(encoding="utf-8")) for folder in FOLDERS
-             for path in sorted((SOURCE / folder).rglob("*")) if path.suffix in (".cc", ".h")]
+             for path in sorted((SOURCE / folder).rglob("*")) if path.suffix in (".cc", ".h", ".py")]
     quoted = list(messages(PAGE.read_text(encoding="utf-8")))
     gone = [m for m in quoted if not any(stands_in(m, text) for text in texts)]
     for message in gone:
