@@ -74,7 +74,7 @@ def _section_of_targets(summary, remarks):
         target["value"], is_curve = target["wanted"] * factor, target.get("kind") == "curve"
         target["spreads"] = spreads = [over_packings(target[key], factor) if key in target else Spread() for key, *_ in JUDGED]
         misses = [number_in(target, key + "_miss") if is_curve else math.nan for key, *_ in JUDGED]
-        rows.append([name, "the curve" if is_curve else words.number(target["value"]),
+        rows.append([name, "the curve" if is_curve else words.digits(target["value"]),
                      *(of.words(".4g", 0) if math.isnan(miss) else f"off by {100 * miss:.4g} %" for of, miss in zip(spreads, misses)),
                      f"{100 * number_in(target, 'tolerance'):.3g} %", "yes" if target.get("met", target["met_in_training"]) else "no"])
         drawn += [target] if target["wanted"] and any(math.isfinite(of.mean) for of in spreads) else []
@@ -83,7 +83,7 @@ def _section_of_targets(summary, remarks):
                     "mean square over its largest stress.")]
     for key, value in summary.get("found", {}).items():
         name, factor = _named(key, value or 0)
-        found += [[name, words.number(value, factor)]] if value is not None else []
+        found += [[name, words.digits(value, factor)]] if value is not None else []
     tables += [Table(["parameter of the bonds", "calibrated value"], found)] if found else []
     remarks += [] if drawn else ["summary.json has no value of a target: there is no picture of them"]
     caption = ("Each calibrated value over its target, mean of the packings with their scatter (standard deviation, of fewer than five "

@@ -6,6 +6,7 @@ import base64
 import html
 import io
 import json
+import math
 import os
 from typing import NamedTuple
 
@@ -32,6 +33,14 @@ STYLE = {"font.family": ["DejaVu Sans", *_FURTHER], "font.size": 9, "axes.titles
          "svg.hashsalt": "platen", "axes.formatter.limits": (-4, 5), "axes.formatter.useoffset": False, "image.interpolation": "nearest",
          "axes.prop_cycle": matplotlib.cycler(color=CYCLE), "path.simplify": True, "pdf.fonttype": 42}
 DPI = 120
+
+
+def digits(value, factor=1.0):
+    """Four digits, whole numbers as such; "-" for NaN and None."""
+    if value is None or not math.isfinite(value):
+        return "-"
+    value *= factor
+    return f"{value:.0f}" if value == round(value) and abs(value) < 1e7 else f"{value:.4g}"
 
 
 class Picture(NamedTuple):

@@ -13,9 +13,8 @@ from typing import NamedTuple
 import numpy
 
 from ..errors import InputError, path_text
-from .house import BLACK, BLUE, GPA, MM, MPA, legend_over
+from .house import BLACK, BLUE, GPA, MM, MPA, digits, legend_over
 from .pages import Table
-from .stages import digits
 
 # Units that headers have, plain (see _plain), with their factors to SI: they tell what a column holds.
 UNITS = {"strain": {"mm/m": 1e-3, "mm per m": 1e-3, "‰": 1e-3, "o/oo": 1e-3, "per mille": 1e-3, "permille": 1e-3, "promille": 1e-3,

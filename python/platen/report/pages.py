@@ -42,8 +42,13 @@ class Table(NamedTuple):
         return "\n".join([*out, *textwrap.wrap(self.note, width)])
 
     def html(self):
+        def is_text(k):
+            return any(len(cell) > 16 and any(map(str.isalpha, cell)) for cell in (str(row[k]) for row in self.rows))
+
+        text = [' class="text"' if is_text(k) else "" for k in range(len(self.header))]
+
         def row(cells, kind):
-            return "<tr>" + "".join(f"<{kind}>{html.escape(str(cell))}</{kind}>" for cell in cells) + "</tr>"
+            return "<tr>" + "".join(f"<{kind}{how}>{html.escape(str(cell))}</{kind}>" for cell, how in zip(cells, text)) + "</tr>"
 
         caption = f"<caption>{html.escape(self.title)}</caption>" if self.title else ""
         note = f'<p class="note">{html.escape(self.note)}</p>' if self.note else ""

@@ -48,7 +48,7 @@ def errors(axes, parameters, measure):
 
 def _table_of_errors(parameter):
     rows = [[value["text"], str(value["errors"]["strength"]["runs"]), *(over_packings(of[key], 100).words("+.2g") for key in MEASURES),
-             words.number(value["seconds"])] for value in parameter["values"] for of in [value["errors"]]]
+             words.digits(value["seconds"])] for value in parameter["values"] for of in [value["errors"]]]
     scatter = [100 * number_in(parameter["scatter_of_seeds"], key) for key in MEASURES]
     rows[-1][2:-1] = ["-" if math.isnan(one) else f"({one:.2g})" for one in scatter]
     rows[-1][0] += " (reference)"
@@ -59,7 +59,7 @@ def _table_of_errors(parameter):
 def _table_of_prices(prices):
     rows, bounds = {}, list(dict.fromkeys(one["within"] for one in prices))
     for one in prices:
-        text = "not reached" if one["value"] is None else f"{words.number(one['seconds'])} s ({one['value']})"
+        text = "not reached" if one["value"] is None else f"{words.digits(one['seconds'])} s ({one['value']})"
         rows.setdefault(f"{one['knob']}, {MEASURES.get(one['of'], one['of'])}", {})[one["within"]] = text
     return Table(["parameter, figure", *(f"{100 * bound:g} %" for bound in bounds)],
                  [[name, *(row.get(bound, "-") for bound in bounds)] for name, row in rows.items()],

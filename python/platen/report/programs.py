@@ -101,7 +101,7 @@ def _pack(folder, summary, remarks):
         remarks.append("density over the height is drawn of cylinders and boxes alone")
     if not summary:
         remarks.append("summary.json is not there: its figures are left out")
-    numbers = [[key, words.number(value)] for key, value in summary.items()
+    numbers = [[key, words.digits(value)] for key, value in summary.items()
                if isinstance(value, (int, float)) and not isinstance(value, bool) and key not in COSTS]
     return Section("The packing", pictures, [Table(["figure (SI)", "value"], numbers)] if numbers else [])
 
@@ -157,7 +157,7 @@ def _bonds(folder, summary, remarks):
     else:
         remarks.append("bonds.csv has no row: there is nothing to draw")
     keys = ("stiffness_ratio", "stiffness", "stiffness_by_hand", "break_load", "break_load_by_hand", "largest_difference")
-    rows = [[str(k + 1), *(words.number(value) for value in (number_in(run, "modulus_pa") * GPA, *(number_in(run, key) for key in keys)))]
+    rows = [[str(k + 1), *(words.digits(value) for value in (number_in(run, "modulus_pa") * GPA, *(number_in(run, key) for key in keys)))]
             for k, run in enumerate(summary.get("runs", []))]
     header = ["run", "modulus (GPa)", "stiffness ratio", "stiffness", "closed form", "break load", "closed form", "difference"]
     note = "Stiffness and load in SI units; moments over rotations where the bond is bent or twisted. Difference: the largest."
@@ -180,7 +180,7 @@ def oscillations(axes, history, load, column, title, factor, static):
 def _bar(folder, summary, remarks):
     found = [(name, unit, number_in(summary, key) * factor, number_in(summary, theory) * factor or math.nan)
              for name, key, theory, factor, unit in BAR if math.isfinite(number_in(summary, key))]
-    rows = [[name, unit, *map(words.number, (value, theory, value / theory))] for name, unit, value, theory in found]
+    rows = [[name, unit, *map(words.digits, (value, theory, value / theory))] for name, unit, value, theory in found]
     both = [(name, value / theory) for name, _, value, theory in found if math.isfinite(theory)]
     pictures = [chart("bar", "Measured value over that of strength of materials for the same bar, and by how much they differ.",
                       partial(bars, names=[name for name, _ in both], values=[100 * (ratio - 1) for _, ratio in both],

@@ -4,8 +4,9 @@ from functools import partial
 
 import numpy
 
-from .house import BLACK, BLUE, CYCLE, GREEN, GREY, MM, MPA, MS, VERMILION, chart, legend_over
+from .house import BLACK, BLUE, CYCLE, GREEN, GREY, MM, MPA, MS, VERMILION, chart, digits, legend_over
 from .pages import Section, Table
+from .platens import sides_of
 from .run import SIDES, STRAIN, STRESS
 
 _STAGE_COLOURS = (*CYCLE, "#882255", "#999933", "#332288")  # after ten they come again, dashed
@@ -13,19 +14,9 @@ SIDE_COLOURS = dict(zip(SIDES, (BLUE, BLUE, VERMILION, VERMILION, GREEN, GREEN))
 _ASKED = ("Axial", "Lateral", "Lateral x", "Lateral y", "Bottom", "Top", "Left", "Right", "Front", "Back")
 
 
-def digits(value):
-    """Four at most; "-" where there is no number."""
-    return f"{value + 0.0:.4g}" if numpy.isfinite(value) else "-"
-
-
 # ---- sides
 def stress_column(side):
     return f"axial_stress_{side}_pa" if side in ("bottom", "top") else f"stress_{side}_pa"
-
-
-def sides_of(run):
-    """Sides with a platen, as the columns of the history say: bottom and top, and further ones of a box."""
-    return [side for side in SIDES if run.has(stress_column(side))]
 
 
 def has_further_sides(run):

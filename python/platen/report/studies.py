@@ -269,7 +269,7 @@ def tables_of_cases(study, title=""):
     """Cases with what they differ in and their strength; their other figures."""
     platens, cases, further = study.kind in PLATENS, study.cases.values(), []
     header = ["case", *(["platens"] if platens else []), *(with_unit(*COLUMNS[key][1:3]) for key in study.columns)]
-    rows = [[case.name, *([case.surface] if platens else []), *(words.number(case.labels.get(key)) for key in study.columns),
+    rows = [[case.name, *([case.surface] if platens else []), *(words.digits(case.labels.get(key)) for key in study.columns),
              str(case.runs) if case.packings == case.runs else f"{case.packings} of {case.runs}",
              ("> " if case.without_peak else "") + case.figures["strength_pa"].words(".1f", case.packings)] for case in cases]
     bore = " >: packings without a peak are among them, whose strength is larger." if any(case.without_peak for case in cases) else ""
@@ -354,13 +354,13 @@ def _section_of_failure(study, remarks):
             continue
         levels = sorted((at[case.name], case.figures["strength_pa"]) for case in cases if at.get(case.name) in p)
         line, fc = fit_line(p, s), levels[0][1].mean if levels[0][0] == 0 else math.nan
-        laws = [[words.number(value if s3 > 0 else math.nan) for value in (
+        laws = [[words.digits(value if s3 > 0 else math.nan) for value in (
             (of.mean - fc) / (s3 or 1), strength_en_1998_3(fc, s3), strength_richart(fc, s3))] for s3, of in levels]
         lines = [(f"{seed:.0f}", fit_line(p[seeds == seed], s[seeds == seed])) for seed in sorted(set(seeds))] + [("all", line)]
         tables += [Table(["pressure (MPa)", "packings", "strength (MPa)", "(s1 - fc) / s3", "EN 1998-3 (MPa)", "Richart (MPa)"],
                          [[f"{s3:.4g}", str(of.packings), of.words(".1f"), *law] for (s3, of), law in zip(levels, laws)], name),
                    Table(["packing (seed)", "points", "q (MPa)", "k", "c (MPa)", "phi (degrees)"],
-                         [[of, str(one.count), *(words.number(value) + (f" +- {error:.2g}" if error > 0 else "") for value, error in (
+                         [[of, str(one.count), *(words.digits(value) + (f" +- {error:.2g}" if error > 0 else "") for value, error in (
                              (one.q, one.q_error), (one.k, one.k_error), (one.cohesion, one.cohesion_error), (one.phi, one.phi_error)))]
                           for of, one in lines], "", "s1 = q + k s3, through all points of a packing, and of all. +-: standard error.")]
         points = [(s3, of.mean, of.low, of.high) for s3, of in levels]

@@ -5,9 +5,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ..errors import InputError
+from .house import digits
 from .pages import Table
 from .platens import friction_words
-from .run import TestRun, number_in, number_with_unit, scene_entries, unit_factor
+from .run import number_in, number_with_unit, scene_entries, unit_factor
 
 # Figures of summary.json: words, keys (the worst of several: the largest, or the least where `least`), unit, its factor from SI,
 # whether the ratio of two runs means anything. Always shown: those before the first None.
@@ -78,14 +79,6 @@ def results_of(run):
     return Results(run.name, run.folder, run.info, run.entries, friction_words(run), run.mean_radius)
 
 
-def number(value, factor=1.0):
-    """Four digits, whole numbers as such; "-" for NaN and None."""
-    if value is None or not math.isfinite(value):
-        return "-"
-    value *= factor
-    return f"{value:.0f}" if value == round(value) and abs(value) < 1e7 else f"{value:.4g}"
-
-
 def words_of_key(key):
     """"energy_residual_relative" as words; that of FIGURES where it is one."""
     for figure in FIGURES:
@@ -145,7 +138,7 @@ def _of_strength(results):
     against = _reasons(info, "strength_pa")
     if math.isnan(value):
         return "No strength: " + ("; ".join(against) if against else "not measured") + "."
-    said = f"Strength {number(value, 1e-6)} MPa"
+    said = f"Strength {digits(value, 1e-6)} MPa"
     return f"{said}, not valid: {'; '.join(against)}." if against else f"{said}, valid."
 
 
@@ -232,16 +225,16 @@ def _bonds(results):
 def table_of_facts(all_results):
     """Specimen, platens, bonds, loading, overrides: a row where any of the results has something."""
     def packing(results):
-        said = (("", results.entries.get("Specimen/Packing", "")), ("solid fraction ", number(number_in(results.info, "packing_fraction"))),
-                ("coordination ", number(number_in(results.info, "coordination_number"))))
+        said = (("", results.entries.get("Specimen/Packing", "")), ("solid fraction ", digits(number_in(results.info, "packing_fraction"))),
+                ("coordination ", digits(number_in(results.info, "coordination_number"))))
         return ", ".join(name + value for name, value in said if value not in ("", "-"))
 
     def over(results):
         return "; ".join(f"{one.get('entry')} = {one.get('value')} (scene file: {one.get('in_scene_file') or 'empty'})"
                          for one in _list(results.info, "overridden") if isinstance(one, dict))
 
-    rows = (("specimen", _size), ("spheres", lambda r: number(number_in(r.info, "particles"))), ("bonds", lambda r: number(number_in(r.info, "bonds"))),
-            ("mean radius (mm)", lambda r: number(r.mean_radius, 1e3)), ("packing", packing), ("seed", lambda r: r.entries.get("Scene/Seed", "")),
+    rows = (("specimen", _size), ("spheres", lambda r: digits(number_in(r.info, "particles"))), ("bonds", lambda r: digits(number_in(r.info, "bonds"))),
+            ("mean radius (mm)", lambda r: digits(r.mean_radius, 1e3)), ("packing", packing), ("seed", lambda r: r.entries.get("Scene/Seed", "")),
             ("platens", lambda r: r.entries.get("Platens/Kind", "") if r.friction else ""), ("friction of the platens", lambda r: "; ".join(r.friction)),
             ("bond law", _bonds), ("loading", _loading), ("title in the scene file", lambda r: r.entries.get("Scene/Title", "") if over(r) else ""),
             ("scene file", lambda r: str(r.info.get("scene_file") or "")), ("overridden", over),
@@ -277,11 +270,11 @@ def table_of_figures(runs):
         values = [_value(run.info, figure) for run in runs]
         if not (always or any(map(math.isfinite, values))):
             continue
-        cells = [number(value, figure[3]) for value in values]
+        cells = [digits(value, figure[3]) for value in values]
         if figure[1] == ("strength_pa",):
             cells = [cell if run.peak_reached is not False else "no peak reached" if cell == "-" else f"{cell}, no peak reached"
                      for cell, run in zip(cells, runs)]
-        ratios = [number(values[0] / value) if figure[4] and value and math.isfinite(value) else "-" for value in values[1:]]
+        ratios = [digits(values[0] / value) if figure[4] and value and math.isfinite(value) else "-" for value in values[1:]]
         table.rows.append([figure[0] + (f" ({figure[2]})" if figure[2] else ""), *cells, *ratios])
     for title, key in WORDS:
         cells = [str(run.info.get(key) or "-") for run in runs]
@@ -306,4 +299,4 @@ def head_of_runs(runs):
     return verdict(all_results), [table for table in tables if table is not None and table.rows]
 
 
-__all__ = ["Results", "TestRun", "head", "head_of_runs", "number", "results_in", "results_of", "summary_of", "true_title", "words_of_key"]
+__all__ = ["Results", "head", "head_of_runs", "digits", "results_in", "results_of", "summary_of", "true_title", "words_of_key"]
