@@ -164,6 +164,15 @@ double Goals::number(const Goal &goal, const TrialResult &r, const TrialResult &
   }
 }
 
+Measured corrected(Measured m, const Correction &by) {
+  for (std::size_t k = 0; k < by.factors.size() && k < m.numbers.size(); ++k) {
+    m.numbers[k] = m.numbers[k].scaled(by.factors[k]);
+    for (std::size_t point = 0; point < m.curves[k].size(); ++point)
+      m.curves[k][point] += by.added[k][point];
+  }
+  return m;
+}
+
 Measured Goals::measured(const std::vector<TrialResult> &results, bool elastic_alone) const {
   Measured m;
   m.numbers.resize(goals_.size()), m.curves.resize(goals_.size());
@@ -200,6 +209,42 @@ double Goals::miss(std::size_t k, const Measured &m) const {
 
 bool Goals::met(std::size_t k, const Measured &m) const {
   return std::abs(miss(k, m)) <= goals_[k].target.tolerance;
+}
+
+bool Goals::surely_met(std::size_t k, const Measured &m) const {
+  constexpr double errors = 2, least = 0.25; // standard errors; of the tolerance
+  const double tolerance = goals_[k].target.tolerance,
+               error = goals_[k].curve ? 0 : std::abs(m.numbers[k].error_of_mean() / goals_[k].target.value);
+  const double margin = std::isnan(error) ? 0 : errors * error;
+  return std::abs(miss(k, m)) <= std::max(tolerance - margin, least * tolerance);
+}
+
+// Packings that are stronger than others are so with other bonds too: what the further ones differ by at one
+// choice is what they differ by near it.
+Correction Goals::correction(const std::vector<Measured> &training,
+                             const std::vector<Measured> &further) const {
+  Correction to;
+  for (std::size_t k = 0; k < goals_.size(); ++k) {
+    double factor = 0, count = 0;
+    std::vector<double> added(curve_points, 0);
+    const auto take = [&](double weight, double ratio) { factor += weight * ratio, count += weight; };
+    for (std::size_t round = 0; round < further.size(); ++round) {
+      const Measured &own = training[round], &other = further[round];
+      if (round == 0) take(static_cast<double>(own.numbers[k].count()), 1);
+      const double ratio = other.numbers[k].mean() / own.numbers[k].mean(),
+                   weight = static_cast<double>(other.numbers[k].count());
+      if (!std::isfinite(ratio)) continue;
+      take(weight, ratio);
+      if (goals_[k].curve && !own.curves[k].empty() && !other.curves[k].empty())
+        for (std::size_t point = 0; point < curve_points; ++point)
+          added[point] += weight * (other.curves[k][point] - own.curves[k][point]);
+    }
+    for (double &one : added)
+      one = count > 0 ? one / count : 0;
+    to.factors.push_back(count > 0 ? factor / count : 1);
+    to.added.push_back(added);
+  }
+  return to;
 }
 
 double Goals::scale(std::size_t k) const {

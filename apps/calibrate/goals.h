@@ -43,6 +43,14 @@ struct Measured {
   std::string too_fast;          // why the first of them that was not quasi-static does not count
 };
 
+// What the mean over more packings is, over that of the packings that a search runs on: by goal a factor; of
+// a curve what is added to its points (Pa). Empty: nothing.
+struct Correction {
+  std::vector<double> factors;
+  std::vector<std::vector<double>> added;
+};
+Measured corrected(Measured measured, const Correction &by);
+
 class Goals {
 public:
   // Those of the scene, then Young's modulus and Poisson's ratio where they are not among them, to be
@@ -62,6 +70,11 @@ public:
   // Relative, signed; of a curve the root mean square; NaN where it was not measured.
   double miss(std::size_t goal, const Measured &measured) const;
   bool met(std::size_t goal, const Measured &measured) const;
+  // Met with a margin of two standard errors of the mean over the packings, so that others meet it too; a
+  // quarter of the tolerance is enough where the packings scatter more than it.
+  bool surely_met(std::size_t goal, const Measured &measured) const;
+  // Of the mean over `training` and further packings, each measured at the choice of the training beside it.
+  Correction correction(const std::vector<Measured> &training, const std::vector<Measured> &further) const;
   // What a search makes small, `rows(goal)` after each other of each goal: logarithms of measured over wanted
   // numbers (of Poisson's ratio, which may be negative, the relative difference), differences of a curve's
   // points; in multiples of the goal's tolerance over Calibrate/Tolerance, times the root of its weight. A

@@ -35,10 +35,14 @@ public:
         model_(space_.parameters(exact), space_.guess(goals, of_), elastic ? elastic_same : same) {}
 
   Found operator()();
+  // Goes on with what was tried, corrected. False where no trial is left.
+  bool correct(const Correction &by);
 
 private:
   bool done() const { return met_.has_value(); }
   bool ends(const Measured &measured) const;
+  int most() const { return elastic_ ? most_elastic : calibrate_of(scene_).most_trials; }
+  void learn(std::size_t trial);
   bool try_all(const std::vector<Eigen::VectorXd> &x);
   void take_differences(const Eigen::VectorXd &x, double size);
   Found found() const;
@@ -54,14 +58,16 @@ private:
   ResponseModel model_;
   std::vector<Eigen::VectorXd> at_;
   std::vector<Choice> tried_;
-  std::vector<Measured> measured_;
+  std::vector<Measured> measured_; // as measured
+  Correction correction_;
   int trials_ = 0;
   std::string too_fast_; // why the first trial that told nothing was no quasi-static one
 };
 
 bool Pass::ends(const Measured &measured) const {
   return std::all_of(of_.begin(), of_.end(), [&](std::size_t k) {
-    return elastic_ ? std::abs(goals_.miss(k, measured)) <= elastic_precision : goals_.met(k, measured);
+    return elastic_ ? std::abs(goals_.miss(k, measured)) <= elastic_precision
+                    : goals_.surely_met(k, measured);
   });
 }
 
@@ -81,10 +87,26 @@ bool Pass::try_all(const std::vector<Eigen::VectorXd> &x) {
     }
     told = true;
     at_.push_back(x[k]), tried_.push_back(choices[k]), measured_.push_back(measured[k]);
-    model_.add(x[k], responses);
-    if (!done() && ends(measured[k])) met_ = tried_.size() - 1;
+    learn(tried_.size() - 1);
   }
   return told;
+}
+
+void Pass::learn(std::size_t trial) {
+  const Measured measured = corrected(measured_[trial], correction_);
+  model_.add(at_[trial], goals_.responses(of_, measured));
+  if (!done() && ends(measured)) met_ = trial;
+}
+
+bool Pass::correct(const Correction &by) {
+  if (trials_ >= most()) return false;
+  correction_ = by;
+  model_ =
+      ResponseModel(space_.parameters(exact_), space_.guess(goals_, of_), elastic_ ? elastic_same : same);
+  met_.reset();
+  for (std::size_t k = 0; k < tried_.size(); ++k)
+    learn(k);
+  return true;
 }
 
 // One parameter after the other, away from the nearer bound; all at once, so that threads share them.
@@ -103,9 +125,8 @@ void Pass::take_differences(const Eigen::VectorXd &x, double size) {
 }
 
 Found Pass::operator()() {
-  std::optional<Eigen::VectorXd> x = model_.start();
-  const int most = elastic_ ? most_elastic : calibrate_of(scene_).most_trials;
-  for (int in_vain = 0; x && !done() && trials_ < most;) {
+  std::optional<Eigen::VectorXd> x = tried_.empty() ? model_.start() : model_.next();
+  for (int in_vain = 0; x && !done() && trials_ < most();) {
     if (!try_all({*x})) {
       if (!too_fast_.empty()) break; // weaker bonds fail sooner still
       if (++in_vain > most_weaker || !space_.free(Knob::tensile_strength)) break;
@@ -115,7 +136,7 @@ Found Pass::operator()() {
     const bool differences = calibrate_of(scene_).differences && !elastic_;
     if (differences && differences_ == 0 && !done()) take_differences(*x, difference);
     x = model_.next();
-    if (x || done() || !differences || differences_ > 1 || trials_ >= most) continue;
+    if (x || done() || !differences || differences_ > 1 || trials_ >= most()) continue;
     take_differences(at_.at(model_.best()), near_difference); // the slopes there may be others
     x = model_.next();
   }
@@ -134,7 +155,7 @@ Found Pass::operator()() {
 Found Pass::found() const {
   const std::size_t best = met_.value_or(model_.best());
   Found to;
-  to.choice = tried_[best], to.measured = measured_[best];
+  to.choice = tried_[best], to.measured = corrected(measured_[best], correction_);
   to.trials = elastic_ ? 0 : trials_;
   to.at_bounds = space_.at_bounds(to.choice);
   to.sensitivities = {of_, space_.knobs(), space_.by_logarithms(model_.slopes(), to.choice),
@@ -153,7 +174,7 @@ bool proportional(const Scene &scene) {
 
 } // namespace
 
-Found search(const Scene &scene, const Goals &goals, const Measurement &test) {
+Found search(const Scene &scene, const Goals &goals, const Measurement &test, const Judge &judge) {
   std::vector<Knob> knobs = knobs_of(scene), elastic;
   std::copy_if(knobs.begin(), knobs.end(), std::back_inserter(elastic),
                [](Knob knob) { return facts_of(knob).elastic; });
@@ -163,7 +184,14 @@ Found search(const Scene &scene, const Goals &goals, const Measurement &test) {
   if (!by_solves.empty() && !elastic.empty())
     found = Pass(scene, goals, test, {scene, found.choice, elastic}, by_solves, true, true)();
   if (by_solves.size() == wanted.size() && !elastic.empty()) return found;
-  return Pass(scene, goals, test, {scene, found.choice, knobs}, wanted, false, proportional(scene))();
+  Pass pass(scene, goals, test, {scene, found.choice, knobs}, wanted, false, proportional(scene));
+  found = pass();
+  while (judge) {
+    const std::optional<Correction> correction = judge(found);
+    if (!correction || !pass.correct(*correction)) break;
+    found = pass();
+  }
+  return found;
 }
 
 } // namespace platen::apps

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "apps/calibrate/calibrate_section.h"
 #include "apps/calibrate/space.h"
@@ -30,8 +31,13 @@ struct Found {
   std::vector<std::string> at_bounds; // of the free parameters, one line each
 };
 
-// Ends where every goal is within its tolerance, after Calibrate/Most trials, or where the bounds allow
-// nothing better. Throws NumericsError where no runs come to a peak, or no static solve to an end.
-Found search(const Scene &scene, const Goals &goals, const Measurement &test);
+// Judges what was found on further packings: what the trials are to be corrected by where these miss a goal,
+// nothing where the search is over.
+using Judge = std::function<std::optional<Correction>(const Found &)>;
+
+// Ends where every goal is within its tolerance less two standard errors of its mean, after Calibrate/Most
+// trials, or where the bounds allow nothing better; goes on with the trials that are left where `judge` asks
+// for it. Throws NumericsError where no runs come to a peak, or no static solve to an end.
+Found search(const Scene &scene, const Goals &goals, const Measurement &test, const Judge &judge = {});
 
 } // namespace platen::apps

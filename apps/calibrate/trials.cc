@@ -107,10 +107,11 @@ std::vector<unsigned long> training_seeds(const Scene &scene) {
   return seeds;
 }
 
-std::vector<unsigned long> unseen_seeds(const Scene &scene) {
+std::vector<unsigned long> unseen_seeds(const Scene &scene, std::size_t round) {
   std::vector<unsigned long> seeds(static_cast<std::size_t>(calibrate_of(scene).verification_seeds));
-  std::iota(seeds.begin(), seeds.end(),
-            scene.general.seed + static_cast<unsigned long>(calibrate_of(scene).seeds));
+  std::iota(
+      seeds.begin(), seeds.end(),
+      scene.general.seed + static_cast<unsigned long>(calibrate_of(scene).seeds) + round * seeds.size());
   return seeds;
 }
 

@@ -23,7 +23,7 @@ struct Trial {
 
 // Packings that a calibration is made on, and those that it is judged by.
 std::vector<unsigned long> training_seeds(const Scene &scene);
-std::vector<unsigned long> unseen_seeds(const Scene &scene);
+std::vector<unsigned long> unseen_seeds(const Scene &scene, std::size_t round = 0); // others in each round
 
 class Trials {
 public:

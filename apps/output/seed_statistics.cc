@@ -17,6 +17,17 @@ double SeedStatistics::mean() const {
   return std::accumulate(values_.begin(), values_.end(), 0.0) / static_cast<double>(values_.size());
 }
 
+SeedStatistics SeedStatistics::scaled(double factor) const {
+  SeedStatistics to;
+  for (const double value : values_)
+    to.add(factor * value);
+  return to;
+}
+
+double SeedStatistics::error_of_mean() const {
+  return deviation() / std::sqrt(static_cast<double>(count()));
+}
+
 double SeedStatistics::deviation() const {
   if (values_.size() < 2) return std::numeric_limits<double>::quiet_NaN();
   double squares = 0;

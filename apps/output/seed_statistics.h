@@ -10,9 +10,11 @@ namespace platen::apps {
 class SeedStatistics {
 public:
   void add(double value);
+  SeedStatistics scaled(double factor) const; // of all values times the factor
   std::size_t count() const { return values_.size(); }
   double mean() const;             // NaN of nothing
   double deviation() const;        // sample standard deviation; NaN of fewer than two
+  double error_of_mean() const;    // the deviation over the root of the count; NaN of fewer than two
   double least() const;            // NaN of nothing
   double largest() const;          // NaN of nothing
   double root_mean_square() const; // NaN of nothing

@@ -309,5 +309,80 @@ TEST_F(CurveFile, a_search_recovers_what_a_curve_was_made_of) {
   EXPECT_NEAR(f.choice[Knob::tensile_strength], 4e6, 0.03 * 4e6);
 }
 
+// Packings of a search that are a twentieth weaker in one number than others: the search ends by the mean of
+// all, once further packings have missed.
+TEST(ManyTargets, packings_that_were_not_searched_on_correct_the_search_where_they_miss) {
+  Scene scene = yielding_scene();
+  scene.own<Calibrate>().targets = eight_targets(0.03);
+  scene.own<Calibrate>().free = eight;
+  scene.own<Calibrate>().differences = true;
+  const Goals goals(scene);
+  constexpr std::size_t weak = 4; // tension
+  const auto on_packings = [&](double factor, int pairs) -> Measurement {
+    return [&goals, factor, pairs](const std::vector<Choice> &choices, bool) {
+      std::vector<Measured> all(choices.size());
+      for (std::size_t k = 0; k < choices.size(); ++k) {
+        all[k].numbers.resize(goals.all().size()), all[k].curves.resize(goals.all().size());
+        for (std::size_t g = 0; g < goals.all().size(); ++g)
+          for (int pair = 0; pair < pairs; ++pair)
+            for (const double scatter : {0.99, 1.01})
+              all[k].numbers[g].add(power_law(goals, goals.all()[g], choices[k]) * scatter *
+                                    (g == weak ? factor : 1));
+      }
+      return all;
+    };
+  };
+  const Measurement own = on_packings(0.95, 1), others = on_packings(1.05, 5);
+  std::vector<Measured> trained, further;
+  std::vector<int> trials;
+  const Found f = search(scene, goals, own, [&](const Found &found) -> std::optional<Correction> {
+    trained.push_back(own({found.choice}, false).front());
+    further.push_back(others({found.choice}, false).front());
+    trials.push_back(found.trials);
+    if (goals.met(weak, further.back()) || further.size() > 2) return std::nullopt;
+    return goals.correction(trained, further);
+  });
+  ASSERT_EQ(further.size(), 2u); // the first ones missed by a tenth, the second ones do not
+  EXPECT_GT(std::abs(goals.miss(weak, further.front())), 0.05);
+  EXPECT_LT(std::abs(goals.miss(weak, further.back())), 0.03);
+  EXPECT_GT(f.trials, trials.front()); // what was tried counts on
+  EXPECT_LE(f.trials, trials.front() + 12);
+  EXPECT_TRUE(missed(goals, f).empty());
+}
+
+TEST(ManyTargets, a_correction_is_the_mean_over_all_packings_over_that_of_the_search) {
+  Scene scene = yielding_scene();
+  scene.own<Calibrate>().targets = {target_of(TargetKind::tension, 4e6, 0.1)};
+  const Goals goals(scene);
+  const auto of = [&](std::vector<double> values) {
+    Measured m;
+    m.numbers.resize(goals.all().size()), m.curves.resize(goals.all().size());
+    for (const double value : values)
+      m.numbers[0].add(value);
+    return m;
+  };
+  const Correction c = goals.correction({of({4e6, 4e6}), of({5e6, 5e6})}, {of({5e6, 5e6, 5e6}), of({5e6})});
+  EXPECT_DOUBLE_EQ(c.factors[0], (2 * 1 + 3 * 1.25 + 1 * 1.0) / 6);
+  EXPECT_DOUBLE_EQ(corrected(of({4e6, 8e6}), c).numbers[0].mean(), 6e6 * c.factors[0]);
+  EXPECT_DOUBLE_EQ(goals.correction({of({4e6})}, {of({})}).factors[0], 1);
+}
+
+TEST(ManyTargets, a_search_ends_within_two_standard_errors_of_the_tolerance) {
+  Scene scene = yielding_scene();
+  scene.own<Calibrate>().targets = {target_of(TargetKind::tension, 100, 0.05)};
+  const Goals goals(scene);
+  const auto of = [&](double mean, double half) { // two packings: a standard error of `half`
+    Measured m;
+    m.numbers.resize(goals.all().size()), m.curves.resize(goals.all().size());
+    m.numbers[0].add(mean - half), m.numbers[0].add(mean + half);
+    return m;
+  };
+  EXPECT_TRUE(goals.surely_met(0, of(102.9, 1)));
+  EXPECT_FALSE(goals.surely_met(0, of(103.1, 1)));
+  EXPECT_FALSE(goals.surely_met(0, of(96.9, 1)));
+  EXPECT_TRUE(goals.surely_met(0, of(101.2, 10))); // a quarter of the tolerance is enough
+  EXPECT_FALSE(goals.surely_met(0, of(101.3, 10)));
+}
+
 } // namespace
 } // namespace platen::apps
