@@ -11,11 +11,13 @@
 #include <functional>
 #include <iterator>
 #include <memory>
+#include <numeric>
 #include <thread>
 
 #include "apps/output/file.h"
 #include "apps/output/machine.h"
 #include "apps/output/output_folder.h"
+#include "apps/output/progress.h"
 #include "apps/output/run_log.h"
 #include "apps/output/stop_signal.h"
 #include "apps/output/summary.h"
@@ -117,6 +119,14 @@ int StudyApp::tell_costs() const {
     if (process.status() == status_bad_input) throw InputError(runs_[k].name + ": " + process.errors());
     if (process.status() != status_done) throw std::runtime_error(runs_[k].name + ": " + process.errors());
   }
+  const auto seconds = [](double sum, const StudyRun &run) { return sum + run.seconds; };
+  const double all = std::accumulate(runs_.begin(), runs_.end(), 0.0, seconds);
+  const auto at_a_time =
+      static_cast<double>(std::min<std::size_t>(runs_.size(), static_cast<std::size_t>(threads())));
+  fmt::print(
+      "\nall {} runs: {} of one core, {} with {:.0f} at a time, to their target strains (counted from the "
+      "scenes)\n",
+      runs_.size(), duration_text(all), duration_text(all / at_a_time), at_a_time);
   return status_done;
 }
 
