@@ -3,6 +3,7 @@ import argparse
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 from ..errors import InputError, OutputError, PlatenError
@@ -114,8 +115,9 @@ def main(arguments=None):
             return _platen("--version", *(["--json"] if options.json else []))
         if options.json:
             raise InputError("--json needs --version")
-        if int(os.environ.get("OMPI_COMM_WORLD_SIZE", "1")) > 1:
-            raise InputError("platen-report runs as one process: start it without mpirun")
+        if _ranks() > 1:
+            raise InputError(f"mpirun has started {_ranks()} processes of platen-report, which runs in one. Allowed: without mpirun; "
+                             "platen-compress and platen-brazilian run on several ranks, where they were built with MPI.")
         if not options.folder:
             raise InputError("no folder is given. See --help")
         if options.state or options.state_diff:
@@ -133,8 +135,22 @@ def main(arguments=None):
     return DONE
 
 
+def _of_launcher(what, otherwise):
+    """Of this program, as Open MPI's mpirun and MPICH's leave it in the environment."""
+    of_hydra = os.environ.get(f"PMI_{what}") if "MPI_LOCALNRANKS" in os.environ else None
+    return int(os.environ.get(f"OMPI_COMM_WORLD_{what}", of_hydra or otherwise))
+
+
+def _ranks():
+    return _of_launcher("SIZE", 1)
+
+
 def _fail(error, status):
+    if _ranks() > 1:  # the first reports what fails on all, before what the launcher says of it
+        time.sleep(5 if _of_launcher("RANK", 0) > 0 else 0)
     sys.stdout.flush()
     text = "".join(c if c == "\n" or (ord(c) >= 32 and ord(c) != 127) else "?" for c in str(error))
-    print(f"error: {text}", file=sys.stderr)
+    print(f"error: {text}", file=sys.stderr, flush=True)
+    if _ranks() > 1:
+        time.sleep(0.2)
     return status
