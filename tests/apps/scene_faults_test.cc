@@ -1,11 +1,11 @@
-// Every file of tests/apps/faulty has one fault and says itself, in lines "# says: ..." (in a file
-// NAME.json.says for JSON), what the message must hold. Adding a bad scene is adding a file; those of
-// platen-calibrate are called calibrate_..., the others are read by platen-compress.
+// tests/apps/faulty.txt is a table of scenes with one fault in each, and of what the message must hold.
+// Adding a bad scene is adding a block; how one is written, the table says itself.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
 #include <sstream>
 
@@ -28,40 +28,121 @@ std::string message_of(const std::string &path, const std::vector<std::string> &
   return "";
 }
 
-std::vector<std::string> announced(const std::filesystem::path &scene) {
-  const bool json = scene.extension() == ".json";
-  std::ifstream file(json ? scene.string() + ".says" : scene.string());
-  std::vector<std::string> fragments;
-  const std::string sign = json ? "" : "# says: ";
-  for (std::string line; std::getline(file, line);)
-    if (line.compare(0, sign.size(), sign) == 0) fragments.push_back(line.substr(sign.size()));
-  return fragments;
+struct Entry {
+  std::string section, key, value;
+};
+
+struct Block {
+  std::vector<Entry> entries;
+  std::string lines; // after the entries
+  std::vector<std::string> says;
+};
+
+std::vector<Entry>::iterator found(std::vector<Entry> &entries, const Entry &entry) {
+  return std::find_if(entries.begin(), entries.end(), [&](const Entry &other) {
+    return other.section == entry.section && other.key == entry.key;
+  });
 }
 
-std::vector<std::filesystem::path> faulty_scenes() {
-  std::vector<std::filesystem::path> scenes;
-  for (const auto &file : std::filesystem::directory_iterator(folder))
-    if (file.path().extension() == ".prm" || file.path().extension() == ".json")
-      scenes.push_back(file.path());
-  std::sort(scenes.begin(), scenes.end());
-  return scenes;
+// "Section/Key = value", or without the value.
+Entry entry_of(const std::string &text) {
+  const std::size_t equals = std::min(text.find(" ="), text.size()), slash = text.rfind('/', equals);
+  const std::string section = slash == std::string::npos ? "" : text.substr(0, slash);
+  const std::size_t key = slash == std::string::npos ? 0 : slash + 1;
+  return {section, text.substr(key, equals - key), text.substr(equals)};
+}
+
+void add(std::vector<Entry> &entries, const Entry &entry) {
+  const auto old = found(entries, entry);
+  if (old != entries.end()) {
+    *old = entry;
+    return;
+  }
+  const auto last = std::find_if(entries.rbegin(), entries.rend(),
+                                 [&](const Entry &other) { return other.section == entry.section; });
+  entries.insert(last == entries.rend() ? entries.end() : last.base(), entry);
+}
+
+std::map<std::string, Block> read_table(const std::filesystem::path &path) {
+  std::map<std::string, Block> table;
+  std::ifstream file(path);
+  std::string name;
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t first = line.find_first_not_of(' ');
+    if (first == std::string::npos || line[first] == '#') continue;
+    if (first == 0) { // a name
+      const std::size_t bracket = line.find(" [");
+      name = line.substr(0, bracket);
+      std::string base = name.find('.') == std::string::npos ? "" : "cylinder";
+      if (bracket != std::string::npos) base = line.substr(bracket + 2, line.size() - bracket - 3);
+      EXPECT_EQ(table.count(name), 0u) << name << " stands there twice";
+      EXPECT_EQ(table.count(base), base.empty() ? 0u : 1u)
+          << name << " is made from what is not above it: " << base;
+      table[name] = base.empty() ? Block() : Block(table[base]);
+      continue;
+    }
+    Block &block = table.at(name);
+    const std::string text = line.substr(first), rest = text.substr(std::min<std::size_t>(2, text.size()));
+    if (text.front() == '|') {
+      block.lines += rest + "\n";
+    } else if (text.front() == '>') {
+      block.says.push_back(rest.rfind(':', 0) == 0 ? name + rest : rest);
+    } else if (text.front() == '-') {
+      const auto old = found(block.entries, entry_of(rest));
+      if (old == block.entries.end())
+        ADD_FAILURE() << name << " leaves out what its base does not have: " << rest;
+      else
+        block.entries.erase(old);
+    } else {
+      const Entry entry = entry_of(text);
+      EXPECT_FALSE(entry.value.empty()) << name << ": no entry: " << text;
+      add(block.entries, entry);
+    }
+  }
+  return table;
+}
+
+std::string scene_of(const Block &block) {
+  std::string text, open;
+  const auto enter = [&](const std::string &section) {
+    if (section == open) return;
+    std::string word;
+    for (std::istringstream words(open); std::getline(words, word, '/');)
+      text += "end\n";
+    for (std::istringstream words(section); std::getline(words, word, '/');)
+      text += "subsection " + word + "\n";
+    open = section;
+  };
+  for (const Entry &entry : block.entries) {
+    enter(entry.section);
+    text += "  set " + entry.key + entry.value + "\n";
+  }
+  enter("");
+  return text + block.lines;
 }
 
 TEST(SceneFaults, each_bad_scene_is_refused_with_place_key_value_and_what_is_allowed) {
-  const auto scenes = faulty_scenes();
-  EXPECT_GE(scenes.size(), 60u);
-  for (const auto &scene : scenes) {
-    const bool calibrates = scene.filename().string().rfind("calibrate_", 0) == 0;
-    const std::string message =
-        message_of(scene.string(), {}, calibrates ? program("calibrate") : program("compress"));
-    const std::vector<std::string> fragments = announced(scene);
-    EXPECT_FALSE(fragments.empty()) << scene << " does not say what is wrong with it";
-    EXPECT_FALSE(message.empty()) << scene << " was read";
-    for (const std::string &fragment : fragments)
+  const auto temporary = std::filesystem::temp_directory_path() / "platen faulty scenes";
+  std::filesystem::remove_all(temporary);
+  std::filesystem::create_directories(temporary);
+  std::filesystem::copy(folder / "fragment", temporary / "fragment");
+  int scenes = 0;
+  for (const auto &[name, block] : read_table(folder.string() + ".txt")) {
+    if (name.find('.') == std::string::npos) continue; // a base
+    ++scenes;
+    const std::string path = (temporary / name).string();
+    std::ofstream(path) << scene_of(block);
+    const bool calibrates = name.rfind("calibrate_", 0) == 0;
+    const std::string message = message_of(path, {}, program(calibrates ? "calibrate" : "compress"));
+    EXPECT_FALSE(block.says.empty()) << name << " does not say what is wrong with it";
+    EXPECT_FALSE(message.empty()) << name << " was read";
+    for (const std::string &fragment : block.says)
       EXPECT_NE(message.find(fragment), std::string::npos)
-          << scene << "\n says: " << message << "\n not: " << fragment;
+          << name << "\n says: " << message << "\n not: " << fragment;
     EXPECT_LE(std::count(message.begin(), message.end(), '\n'), 5) << message; // six lines
   }
+  EXPECT_GE(scenes, 200);
+  std::filesystem::remove_all(temporary);
 }
 
 TEST(SceneFaults, files_that_are_no_scenes_are_refused) {

@@ -40,17 +40,43 @@ def build(folder):
     subprocess.run(["cmake", "--build", folder], check=True, stdout=sys.stderr)
 
 
+def faulty_scenes():
+    """Texts by name from tests/apps/faulty.txt, which says itself how they are written."""
+    blocks = {"": ({}, [])}
+    for line in (faults.SOURCE / "tests/apps/faulty.txt").read_text().splitlines():
+        sign, text = line[2:3], line[4:]
+        if line.strip() == "" or line.lstrip().startswith("#"):
+            continue
+        if not line.startswith(" "):
+            name, _, base = line.rstrip("]").partition(" [")
+            entries, lines = blocks[base or ("cylinder" if "." in name else "")]
+            entries, lines = blocks[name] = dict(entries), list(lines)
+        elif sign == "-":
+            del entries[text]
+        elif sign == "|":
+            lines.append(text)
+        elif sign != ">":
+            key, _, value = line[2:].partition(" =")
+            entries[key] = value
+    scenes = {}
+    for name, (entries, lines) in blocks.items():
+        text = ""
+        for key, value in entries.items():
+            *sections, key = key.split("/")
+            text += "".join(f"subsection {word}\n" for word in sections) + f"set {key} ={value}\n" + "end\n" * len(sections)
+        scenes[name] = (text + "".join(line + "\n" for line in lines)).encode()
+    return {name: text for name, text in scenes.items() if "." in name}
+
+
 def seed(folder):
     """Inputs to begin with, a folder for each fuzzer."""
     corpus = {name: folder / "corpus" / name for name in SHARES}
     for path in corpus.values():
         path.mkdir(parents=True, exist_ok=True)
-    scenes = [*faults.SOURCE.glob("scenes/*.prm"), *faults.SOURCE.glob("tests/apps/faulty/*.prm"),
-              *faults.SOURCE.glob("tests/apps/faulty/*.json"), faults.CRUSHED]
-    for scene in scenes:
-        text = scene.read_bytes()
-        (corpus["fuzz_scene_text"] / scene.name).write_bytes(text)
-        (corpus["fuzz_scene"] / scene.name).write_bytes(b"\x03" + text)  # as platen-compress reads it
+    scenes = {path.name: path.read_bytes() for path in [*faults.SOURCE.glob("scenes/*.prm"), faults.CRUSHED]} | faulty_scenes()
+    for name, text in scenes.items():
+        (corpus["fuzz_scene_text"] / name).write_bytes(text)
+        (corpus["fuzz_scene"] / name).write_bytes(b"\x03" + text)  # as platen-compress reads it
     tables = {"cylinder": b"\1# shape: cylinder radius_m=0.01 height_m=0.02\nx_m,y_m,z_m,radius_m\n0,0.001,0.01,0.001\n",
               "box": b"\1# shape: box width_x_m=1 width_y_m=2 height_m=3\r\nx_m,y_m,z_m,radius_m\r\n1,1,1e-1,0.5\r\n",
               "disc": b"\1# shape: disc radius_m=1 thickness_m=2\nx_m,y_m,z_m,radius_m\n\n# no sphere\n 1 , 1 ,1,.5\n",
@@ -63,7 +89,7 @@ def seed(folder):
     subprocess.run([folder / "bin/write_seed", checkpoint], check=True)
     for first in (b"\0", b"\1"):
         (corpus["fuzz_checkpoint"] / f"whole_{first[0]}").write_bytes(first + checkpoint.read_bytes())
-    words = {word for scene in scenes for word in re.findall(rb"[A-Za-z][A-Za-z ]{2,30}(?= =|\n|\"|$)", scene.read_bytes())}
+    words = {word for text in scenes.values() for word in re.findall(rb"[A-Za-z][A-Za-z ]{2,30}(?= =|\n|\"|$)", text)}
     words |= {b"subsection ", b"set ", b"end", b"include ", b"\\\n", b"MPa", b"mm", b" degree", b"R_min", b"1e308", b"{\"", b"\": "}
     escaped = ["".join(f"\\x{letter:02x}" for letter in word) for word in sorted(words)]
     (folder / "words.txt").write_text("".join(f'"{word}"\n' for word in escaped))

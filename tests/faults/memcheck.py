@@ -31,6 +31,8 @@ def cases(build, folder):
         return [line[0], *words, *line[1:]]
 
     crushed = faults.CRUSHED
+    misspelt = folder / "misspelt_key.prm"
+    misspelt.write_text(f"include {crushed}\nsubsection Contact\n  set Frictoin = 0.3\nend\n")
     return {
         "pack": app("pack", crushed, faults.TINY),
         "bonds": app("bonds", faults.SOURCE / "scenes/softening_bond.prm"),
@@ -43,7 +45,7 @@ def cases(build, folder):
                                                            "Calibrate/Modulus list = 36 GPa",
                                                            "Calibrate/Stiffness ratio list = 0.5"]),
         "files": [str(tests / "test_output"), "--gtest_filter=Checkpoint.*:Csv.*:SpecimenCsv.*:-*cut_off*:*single_bit*:*same_bits"],
-        "refusals": [str(apps / "platen-compress"), str(faults.SOURCE / "tests/apps/faulty/misspelt_key.prm")],
+        "refusals": [str(apps / "platen-compress"), str(misspelt)],
     }
 
 
