@@ -53,9 +53,10 @@ install(DIRECTORY ${CMAKE_BINARY_DIR}/manual/ DESTINATION ${CMAKE_INSTALL_DATADI
   COMPONENT documentation EXCLUDE_FROM_ALL OPTIONAL PATTERN man EXCLUDE)
 
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "python3-platen (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), python3-matplotlib")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "python3, python3-matplotlib")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/debian/platen/postinst ${PROJECT_SOURCE_DIR}/debian/platen/prerm)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "bash-completion")
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "platen-doc, paraview, openmpi-bin, fonts-wqy-microhei")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "platen-doc, python3-platen, paraview, openmpi-bin, fonts-wqy-microhei")
 set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION "laboratory of bonded spheres between finite-element platens
 Platen crushes, confines, bends, splits and pulls specimens of bonded discrete
 elements (concrete, rock, glass) between the platens of a testing machine,
