@@ -35,9 +35,10 @@ struct Found {
 // nothing where the search is over.
 using Judge = std::function<std::optional<Correction>(const Found &)>;
 
-// Ends where every goal is within its tolerance less two standard errors of its mean, after Calibrate/Most
-// trials, or where the bounds allow nothing better; goes on with the trials that are left where `judge` asks
-// for it. Throws NumericsError where no runs come to a peak, or no static solve to an end.
+// Ends where every goal is within its tolerance less two standard errors of its mean, or, after half of the
+// trials, within its tolerance; after Calibrate/Most trials, or where the bounds allow nothing better. Goes
+// on with the trials that are left where `judge` asks for it. Throws NumericsError where no runs come to a
+// peak, or no static solve to an end.
 Found search(const Scene &scene, const Goals &goals, const Measurement &test, const Judge &judge = {});
 
 } // namespace platen::apps

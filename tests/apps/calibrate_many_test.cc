@@ -384,5 +384,32 @@ TEST(ManyTargets, a_search_ends_within_two_standard_errors_of_the_tolerance) {
   EXPECT_FALSE(goals.surely_met(0, of(101.3, 10)));
 }
 
+// Responses that scatter by more than the margin from trial to trial: it is asked for in half of the trials.
+TEST(ManyTargets, half_of_the_trials_are_for_a_margin_then_the_tolerance_is_enough) {
+  Scene scene = yielding_scene();
+  scene.own<Calibrate>().targets = eight_targets(0.04);
+  scene.own<Calibrate>().free = eight;
+  scene.own<Calibrate>().differences = true;
+  scene.own<Calibrate>().most_trials = 40;
+  const Goals goals(scene);
+  double count = 0;
+  const Measurement scattering = [&](const std::vector<Choice> &choices, bool) {
+    std::vector<Measured> all(choices.size());
+    for (std::size_t k = 0; k < choices.size(); ++k) {
+      all[k].numbers.resize(goals.all().size()), all[k].curves.resize(goals.all().size());
+      for (std::size_t g = 0; g < goals.all().size(); ++g) {
+        const double of_trial = 1 + 0.02 * std::sin(++count * 12.9898);
+        for (const double packing : {0.97, 1.03})
+          all[k].numbers[g].add(power_law(goals, goals.all()[g], choices[k]) * of_trial * packing);
+      }
+    }
+    return all;
+  };
+  const Found f = search(scene, goals, scattering);
+  EXPECT_TRUE(missed(goals, f).empty());
+  EXPECT_GT(f.trials, 20);
+  EXPECT_LT(f.trials, 40);
+}
+
 } // namespace
 } // namespace platen::apps
