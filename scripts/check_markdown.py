@@ -26,20 +26,20 @@ RULE = re.compile(r"^\s*\|?\s*:?-+:?\s*(\|\s*:?-+:?\s*)*\|?\s*$")
 
 
 def without_code(text):
-    """The lines, those of fenced and indented code and code between backquotes blanked."""
+    """The lines, those of fenced and indented code and code between backquotes blanked, as long as they were."""
     lines, fence, indented = [], "", False
     previous = ""
     for line in text.splitlines():
         mark = re.match(r"^\s*(`{3,}|~{3,})", line)
         if mark and (not fence or (line.strip().startswith(fence) and not line.strip().strip(fence[0]))):
             fence = "" if fence else mark.group(1)
-            lines.append("")
+            lines.append(" " * len(line))
         elif fence:
-            lines.append("")
+            lines.append(" " * len(line))
         else:
             starts = line.startswith("    ") and not previous.strip() and not in_list(lines)
             indented = bool(line.startswith("    ") and (indented or starts))
-            lines.append("" if indented else line)
+            lines.append(" " * len(line) if indented else line)
         previous = line
     return blank_spans("\n".join(lines)).split("\n")
 

@@ -14,44 +14,27 @@ else
   apps="$root/../../bin"
 fi
 
-# One thread each, side by side; every line says whose it is.
-mkdir -p results/demo
-crush() {
-  "$apps"/platen-compress "$root/scenes/demo_$1.prm" -o "results/demo/$1" --overwrite -t 1 \
-    > >(sed -u "s/^/$1: /") 2>&1 &
-}
-crush dry
-dry=$!
-crush lubricated
-lubricated=$!
-trap 'kill "$dry" "$lubricated" 2>/dev/null || true; wait || true; exit 130' INT TERM
-
 # Status 1: the run is whole, but a figure that its scene expects did not come out; worth looking at all the same.
 worst=0
-finish() {
-  local status=0
-  wait "$2" || status=$?
+run() { # NAME COMMAND...: into results/demo/NAME
+  local name=$1 status=0
+  shift
+  echo "== $name"
+  "$@" -o "results/demo/$name" --overwrite || status=$?
   if [ "$status" -gt 1 ]; then
-    echo "demo: the $1 run failed with status $status; see results/demo/$1/run.log" >&2
-    kill "$dry" "$lubricated" 2>/dev/null || true
+    echo "demo: the $name run failed with status $status; see results/demo/$name/run.log" >&2
     exit "$status"
-  fi
-  if [ "$status" -eq 1 ]; then
-    echo "demo: the $1 run did not give all the figures that its scene expects" >&2
+  elif [ "$status" -eq 1 ]; then
+    echo "demo: the $name run did not give all the figures that its scene expects" >&2
     worst=1
   fi
 }
-finish dry "$dry"
-finish lubricated "$lubricated"
-trap - INT TERM
-
+run dry "$apps"/platen-compress "$root/scenes/demo_dry.prm"
+run lubricated "$apps"/platen-compress "$root/scenes/demo_lubricated.prm"
 "$apps"/platen-report results/demo/lubricated
 "$apps"/platen-report results/demo/dry --compare results/demo/lubricated
 
-status=0
-"$apps"/platen-study friction "$root/scenes/study_friction_quick.prm" -o results/demo/friction --overwrite || status=$?
-[ "$status" -le 1 ] || exit "$status"
-[ "$status" -eq 0 ] || worst=1
+run friction "$apps"/platen-study friction "$root/scenes/study_friction_quick.prm"
 "$apps"/platen-report results/demo/friction
 
 cat <<'END'

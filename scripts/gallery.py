@@ -41,9 +41,9 @@ HEADING = """# Gallery
 
 Every scene of `scenes/`, run as it stands (long ones at an earlier time, or not at all: their sections say so): what to see, a picture from its
 report, its main numbers, and what it cost.
-Written by `scripts/gallery.py BUILD RUNS --write`; only the sentences on what to see are written by hand
-([gallery_scenes.py](../scripts/gallery_scenes.py)). As many runs at a time as the machine has cores, with low priority:
-seconds are upper bounds. One seed each, but for studies; strengths scatter by a few percent from seed to seed.
+Written by `scripts/gallery.py BUILD RUNS --write`; only the sentences on what to see, which stand first in each section, are written by
+hand, here. As many runs at a time as the machine has cores, with low priority: seconds are upper bounds. One seed each, but for studies;
+strengths scatter by a few percent from seed to seed.
 """
 
 
@@ -164,24 +164,30 @@ def wrapped(text):
 
 
 def kept_sections():
-    """What the page says of scenes that have been run, by the scene's name."""
-    text = PAGE.read_text() if PAGE.exists() else ""
-    sections = re.findall(r"^### (\S+)\n(.*?)(?=^##|\Z)", text, re.M | re.S)
-    return {name: f"### {name}\n{body.rstrip()}\n" for name, body in sections if re.search(r"^\|", body, re.M)}
+    """What the page says of each scene, by the scene's name."""
+    sections = re.findall(r"^### (\S+)\n(.*?)(?=^##|\Z)", PAGE.read_text(), re.M | re.S)
+    return {name: f"### {name}\n{body.rstrip()}\n" for name, body in sections}
+
+
+def sentence_of(section):
+    """What to see, by hand: the first paragraph of a section, without the title of the scene; "" where there is none."""
+    first = re.match(r"### \S+\n\n(?:\*\*.*?\*\*\s*)?([^!|\n].*?)\n\n", section, re.S)
+    return " ".join(first[1].split()) if first else ""
 
 
 def section(scene, result, kept):
     """All that the page says of a scene. What it said before, where its run is long and not here."""
-    if scene.cost and scene.name in kept and not result.summary and not result.fault:
-        return kept[scene.name]
-    parts = [f"### {scene.name}"]
+    before = kept.get(scene.name, "")
+    if scene.cost and "\n|" in before and not result.summary and not result.fault:
+        return before
+    parts, see = [f"### {scene.name}"], sentence_of(before)
     if result.summary:
-        parts.append(f"**{result.summary['scene']}.** {scene.see}")
+        parts.append(f"**{result.summary['scene']}.** {see}")
         if scene.picture and not result.fault:
             parts.append(f"![{result.summary['scene']}](images/gallery/{scene.name}.png)")
         parts += [*tables(result.summary), f"{cost(result)} {verdict(result)}"]
     else:
-        parts.append(scene.see)
+        parts.append(see)
         if not result.fault:
             parts.append(f"Not run here: {scene.cost}." if scene.cost else "Not run yet.")
     if result.fault:
@@ -199,13 +205,14 @@ def page(results):
 
 def check(listed):
     """Faults of list, page and pictures, as texts."""
-    there, text = {p.stem for p in SCENES.glob("*.prm")}, PAGE.read_text() if PAGE.exists() else ""
+    there, text = {p.stem for p in SCENES.glob("*.prm")}, PAGE.read_text()
     named, made = set(re.findall(r"\(images/gallery/(.*?)\.png\)", text)), {p.stem for p in IMAGES.glob("*.png")}
     faults = [f"scenes/{name}.prm is not in gallery_scenes.py" for name in sorted(there - set(listed))]
     faults += [f"gallery_scenes.py: there is no scenes/{name}.prm" for name in listed if name not in there]
     faults += [f"gallery_scenes.py: {name} stands there twice" for name in there if listed.count(name) > 1]
     faults += [f"{PAGE.name}: names {name}.png, which is not there" for name in sorted(named - made)]
     faults += [f"{PAGE.name}: does not show {name}.png" for name in sorted(made - named)]
+    faults += [f"{PAGE.name}: does not say what to see in {name}" for name, section in kept_sections().items() if not sentence_of(section)]
     if re.findall(r"^### (.*)", text, re.M) != listed:
         faults.append(f"{PAGE.name}: has not the scenes of gallery_scenes.py; write it anew")
     return faults

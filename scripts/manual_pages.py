@@ -9,7 +9,6 @@ in BUILD/apps say of themselves. scripts/manual.sh calls this.
 """
 
 import argparse
-import bisect
 import os
 import pathlib
 import re
@@ -95,12 +94,9 @@ class Layout:
 
     def copy(self, page):
         text = page.read_text(encoding="utf-8")
-        plain = "\n".join(without_code(text))
         parts, at = [], 0
-        # Places of links are those of the text without code, which is as long line by line where it is no code.
-        starts = line_starts(text), line_starts(plain)
-        for match in LINK.finditer(plain):
-            start = same_place(match.start(), *starts)
+        for match in LINK.finditer("\n".join(without_code(text))):
+            start = match.start()
             whole = LINK.match(text, start)
             if whole is None:
                 continue
@@ -120,19 +116,6 @@ class Layout:
         return LINK.sub(lead, words)
 
 
-def line_starts(text):
-    starts = [0]
-    for line in text.split("\n"):
-        starts.append(starts[-1] + len(line) + 1)
-    return starts
-
-
-def same_place(offset, in_text, in_plain):
-    """The same line and column of the text with code."""
-    line = bisect.bisect_right(in_plain, offset) - 1
-    return in_text[line] + offset - in_plain[line]
-
-
 def main():
     parser = argparse.ArgumentParser(description="Lays out the pages of the manual.")
     parser.add_argument("build", type=pathlib.Path)
@@ -142,15 +125,8 @@ def main():
     layout.to.mkdir(parents=True)
     for page in layout.pages:
         layout.copy(page)
-    made = {"bench/index.md": BENCH, "library.md": library_page()}
-    lessons = list((layout.to / "tutorial").glob("lesson*.md"))
-    if lessons and not (layout.to / "tutorial/index.md").exists():
-        made["tutorial/index.md"] = TUTORIAL
-    elif not lessons:  # a list of nothing is a warning of Sphinx's
-        index = layout.to / "index.md"
-        made["index.md"] = index.read_text(encoding="utf-8").replace("/tutorial/index\n", "")
-    made.update(scene_pages(asked.build / "apps"))
-    made["programs.md"] = programs_page(asked.build / "apps")
+    made = {"bench/index.md": BENCH, "library.md": library_page(), "tutorial/index.md": TUTORIAL,
+            "programs.md": programs_page(asked.build / "apps"), **scene_pages(asked.build / "apps")}
     for name, text in made.items():
         goal = layout.to / name
         goal.parent.mkdir(parents=True, exist_ok=True)

@@ -1,34 +1,21 @@
 """Pages of the manual that the programs write of themselves: every entry of a scene, every option."""
 
 import json
+import pathlib
 import re
 import subprocess
 
 PROGRAMS = ("platen-pack", "platen-bonds", "platen-bar", "platen-compress", "platen-brazilian", "platen-calibrate",
             "platen-study", "platen-report")
 WITH_SCENES = PROGRAMS[:-1]
-MANY = 60  # entries of a section from which on they are rows of a table
+SOURCE = pathlib.Path(__file__).resolve().parent.parent
 
-OF_SECTIONS = {  # what a section decides, for the index and the head of its page
-    "Scene": "Title, seed of all random numbers, accuracy against time in one word.",
-    "Specimen": "Shape and size, radii of the spheres, packing, ends.",
-    "Material": "Density of the grains and their elastic constants.",
-    "Effects": "Which physics acts.",
-    "Bond": "What holds the grains together, and when it breaks.",
-    "Phases": "Which spheres are aggregate, and what their bonds have over those of the matrix.",
-    "Contact": "Grains that touch without a bond.",
-    "Platens": "The platens: friction, stiffness, size, what moves them.",
-    "Sleeve": "The rubber sleeve of a triaxial cell.",
-    "Loading": "The test: kind, rate, pressure, stages, where it ends.",
-    "Integration": "Time step, scheme, damping, mass scaling.",
-    "Output": "How often results and frames are written.",
-    "Checkpoint": "How often a run writes down its state.",
-    "Expect": "Numbers that have to come out: a run that misses one ends with status 1.",
-    "Pair test": "Tests of platen-bonds.",
-    "Bar test": "Tests of platen-bar.",
-    "Study": "Cases of platen-study.",
-    "Calibrate": "What platen-calibrate looks for.",
-}
+
+def sections_decide():
+    """What each section decides, for the index and the head of its page: the table of docs/scene_files.md."""
+    text = (SOURCE / "docs/scene_files.md").read_text(encoding="utf-8").split("\n## The sections\n")[1].split("\n#")[0]
+    rows = re.findall(r"^\| (`.*?`) \| (.*) \|$", text, re.M)
+    return {name: what[0].upper() + what[1:] + "." for names, what in rows for name in re.findall("`(.*?)`", names)}
 
 
 def said(*command):
@@ -116,9 +103,9 @@ def table_text(paths, entries, readers):
     return "\n".join(lines) + "\n"
 
 
-def section_page(section, paths, entries, readers, links):
-    head = f"# {section}\n\n{OF_SECTIONS.get(section, '')}\n\n"
-    if len(paths) > MANY and section == "Expect":
+def section_page(section, decides, paths, entries, readers, links):
+    head = f"# {section}\n\n{decides}\n\n"
+    if section == "Expect":
         words = links.led(entries[paths[0]]["documentation"])
         return head + f"{words}\n\n" + table_text(paths, entries, readers)
     return head + "\n".join(entry_text(path, entries[path], readers[path], links) for path in paths)
@@ -131,13 +118,14 @@ def scene_pages(apps):
     sections = {}
     for path in entries:
         sections.setdefault(path[0], []).append(path)
-    order = [name for name in OF_SECTIONS if name in sections] + [s for s in sections if s not in OF_SECTIONS]
+    decides = sections_decide()
+    order = [name for name in decides if name in sections] + [s for s in sections if s not in decides]
     index = ["# Scene reference", "",
              f"All {len(entries)} entries of a scene, as the programs themselves tell them by `--print-parameters`. How a scene is "
              "written: [scenes and the command line](../scene_files.md).", "",
              "| section | entries | what it decides |", "| --- | --- | --- |"]
     for name in order:
-        index.append(f"| [{name}]({file_of(name)}.md) | {len(sections[name])} | {OF_SECTIONS.get(name, '')} |")
+        index.append(f"| [{name}]({file_of(name)}.md) | {len(sections[name])} | {decides.get(name, '')} |")
     index += ["", "```{toctree}", ":hidden:", ":maxdepth: 1", "", *map(file_of, order), "```", "", "## All entries", ""]
     for name in order:
         listed = sections[name] if name != "Expect" else []
@@ -146,7 +134,7 @@ def scene_pages(apps):
                 f"[{': '.join(p[1:])}]({file_of(name)}.md#{anchor_of(p[1:])})" for p in listed) + "\n")
     pages = {"scene/index.md": "\n".join(index) + "\n"}
     for name in order:
-        pages[f"scene/{file_of(name)}.md"] = section_page(name, sections[name], entries, readers, links)
+        pages[f"scene/{file_of(name)}.md"] = section_page(name, decides.get(name, ""), sections[name], entries, readers, links)
     return pages
 
 

@@ -7,7 +7,6 @@
     scripts/mutation.py WORK --survivors          ... runs no fault but those that survived the last time
     scripts/mutation.py WORK --only 17 23         ... none but these
     scripts/mutation.py WORK --write FILE.md      ... and writes the list (what is said above it stays)
-    scripts/mutation.py WORK --before OLD.json    ... with the results of another time beside
     scripts/mutation.py --check                   runs none: named faults and argued equivalents against the sources
 
 WORK is a scratch folder; what is in it is kept for the next time. Faults are signs, factors, powers, indices, bounds,
@@ -38,7 +37,6 @@ import time
 import mutation_draw
 from mutation_copy import DATA, SOURCE, Copy
 from mutation_draw import Fault
-from mutation_page import renewed, written
 
 ALLOWED = 0.05  # share that may survive, each argued
 FIRST, SECOND = 4.0, 25.0  # s, of tests in the first two goes at a fault
@@ -112,11 +110,11 @@ class Mutation:
     def __init__(self, args):
         self.args = args
         plan = json.loads((DATA / "groups.json").read_text())
-        self.programs = args.programs or plan["programs"]
+        self.programs = plan["programs"]
         self.sources = Sources(plan["groups"])
         self.work = args.work.resolve()
         self.work.mkdir(parents=True, exist_ok=True)
-        self.copy = Copy(self.work, self.programs, args.cores, args.lock)
+        self.copy = Copy(self.work, self.programs, args.cores)
         self.refused_file = self.work / "refused.json"
         self.refused = set(map(tuple, json.loads(self.refused_file.read_text()))) if self.refused_file.exists() else set()
         self.argued, self.stale = equivalents(self.sources)
@@ -279,15 +277,12 @@ class Mutation:
 
     def run(self):
         begun = time.time()
-        if self.args.built:
-            self.plan()
-        else:
-            self.prepare()
-            say("built")
+        self.prepare()
+        say("built")
         if self.args.build:
             return 0
         self.baseline()
-        last = self.work / self.args.result
+        last = self.work / "result.json"
         old = {}
         if last.exists():
             old = {(r["file"], r["line_text"], r["before"], r["after"]): r for r in json.loads(last.read_text())["faults"]}
@@ -331,24 +326,41 @@ class Mutation:
         return 0 if good and not self.stale else 1
 
 
+def page(result, before):
+    """The page of the result: what each fault was, and what has killed it; what an older page says above its list stays."""
+
+    def cell(text):
+        text = text.replace("|", "\\|")
+        return f"`{text if len(text) < 90 else text[:87] + '...'}`" if text else "left out"
+
+    def verdict(f):
+        if not f["killed"]:
+            return "**survives**: " + f["argument"] if f["argument"] else "**survived**"
+        return {"expectation": "", "crash": "crash: ", "time": "time: "}.get(f["killed"], "") + f["by"].split(" ")[-1]
+
+    ways = {way: sum(f["killed"] == way for f in result["faults"]) for way in ("", "expectation", "crash", "time")}
+    head = f"{len(result['faults'])} faults, seed"
+    lines = ["# Single faults, and the tests that notice them", "",
+             f"{head} {result['seed']}: {ways['']} survive, {ways['expectation']} are killed by an expectation, {ways['crash']} by a crash, "
+             f"{ways['time']} by time.", "", "|  | where | fault | text | becomes | killed by |", "|" + "---|" * 6]
+    lines += [f"| {f['number']} | {f['file']}:{f['line']} | {f['name'] or f['kind']} | {cell(f['before'])} | {cell(f['after'])} | {verdict(f)} |"
+              for f in result["faults"]]
+    text, old = "\n".join(lines) + "\n", re.search(r"^\d+ faults, seed", before, re.MULTILINE)
+    return before[: old.start()] + text[text.index(head) :] if old else text
+
+
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("work", type=pathlib.Path, nargs="?", metavar="WORK")
     parser.add_argument("--count", type=int, default=120)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--cores", type=int, default=os.cpu_count())
-    parser.add_argument("--lock", metavar="FILE", help="held locked while the copy is built")
-    parser.add_argument("--result", default="result.json", help="file in WORK")
-    parser.add_argument("--nice", type=int, default=10)
     parser.add_argument("--longest", type=float, default=12, help="s, of a test without a fault")
     parser.add_argument("--only", type=int, nargs="+", default=[])
     parser.add_argument("--build", action="store_true", help="... and nothing else")
-    parser.add_argument("--built", action="store_true", help="takes the build as it stands")
     parser.add_argument("--survivors", action="store_true")
     parser.add_argument("--without", nargs="+", default=[], metavar="PATTERN", help="tests to leave out")
-    parser.add_argument("--programs", nargs="+", help="test programs in place of those of groups.json")
     parser.add_argument("--write", type=pathlib.Path, metavar="FILE")
-    parser.add_argument("--before", type=pathlib.Path, metavar="JSON")
     parser.add_argument("--check", action="store_true")
     args = parser.parse_args()
     if not args.check and args.work is None:
@@ -372,13 +384,11 @@ def main():
     args = arguments()
     if args.check:
         return check()
-    os.nice(max(0, args.nice - os.nice(0)))
+    os.nice(max(0, 10 - os.nice(0)))
     mutation = Mutation(args)
     status = mutation.run()
     if args.write and not args.build:
-        before = json.loads(args.before.read_text()) if args.before else None
-        said = args.write.read_text() if args.write.is_file() else ""
-        args.write.write_text(renewed(said, written(mutation.result, before)))
+        args.write.write_text(page(mutation.result, args.write.read_text() if args.write.is_file() else ""))
     return status
 
 

@@ -1,6 +1,5 @@
 """A copy of the sources with faults in it (mutation.py): its files, its build, what its compiler says."""
 
-import fcntl
 import json
 import os
 import pathlib
@@ -16,9 +15,8 @@ FOLDERS = ("apps", "base", "cmake", "coupling", "dem", "examples", "fem", "scene
 class Copy:
     """A copy of the sources with faults in it, its build and its test programs."""
 
-    def __init__(self, work, programs, cores, lock):
-        self.root, self.build, self.cores, self.lock = work / "source", work / "build", cores, lock
-        self.programs = programs
+    def __init__(self, work, programs, cores):
+        self.root, self.build, self.cores, self.programs = work / "source", work / "build", cores, programs
 
     def write(self, path, text):
         target = self.root / path
@@ -110,12 +108,5 @@ class Copy:
         return of_errors, of_others
 
     def make(self):
-        with open(self.lock or os.devnull) as lock:
-            if self.lock:
-                fcntl.flock(lock, fcntl.LOCK_EX)
-            run = self.ninja()
+        run = subprocess.run(["ninja", "-C", self.build, "-k", "0", "-j", str(self.cores), *self.programs], capture_output=True, text=True)
         return run.stdout + run.stderr if run.returncode else ""
-
-    def ninja(self):
-        return subprocess.run(["ninja", "-C", self.build, "-k", "0", "-j", str(self.cores),
-                               *self.programs], capture_output=True, text=True)

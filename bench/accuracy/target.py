@@ -7,8 +7,8 @@ For each subject: (a) reference runs over seeds and speeds (--seeds packings at 
 scenes), whose line through 1 / N is the truth, with an interval of its own; (b) so many repetitions of each order, on seeds far
 apart; (c) what one slow speed would cost for the same accuracy, by the variances and the haste of the reference runs.
 All orders of one repetition share its runs: a run of the same seed, speed and scene is the same to the byte, and an order counts each run
-that it asks for, whoever made it. Prints a table, leaves it in FOLDER/target.md and, where gnuplot is installed, draws orders against
-costs. What is done is kept: call it again after a stop; --tables runs nothing and tells what is there.
+that it asks for, whoever made it. Prints a table, leaves it in FOLDER/target.md and draws orders against costs. What is done is kept:
+call it again after a stop; --tables runs nothing and tells what is there.
 """
 import argparse
 import math
@@ -17,6 +17,9 @@ import shutil
 import statistics
 import subprocess
 import sys
+
+import numpy
+from matplotlib import pyplot
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
 import platen
@@ -59,39 +62,24 @@ def rows_of(folder):
             for row, cost in zip(found.table.records(), found.costs.records())}
 
 
-def line(x, y):
-    """Height at 0 and slope of the straight line, by least squares."""
-    mx, my = statistics.fmean(x), statistics.fmean(y)
-    slope = sum((a - mx) * (b - my) for a, b in zip(x, y)) / sum((a - mx) ** 2 for a in x)
-    return my - slope * mx, slope
-
-
 def spread_of(logs):
     """Variances of packings and of chaos, by analysis of variance of packings that have all speeds."""
     speeds = sorted({n for n, _ in logs})
     whole = [s for s in sorted({s for _, s in logs}) if all((n, s) in logs for n in speeds)]
-    of_speed = [statistics.fmean(logs[n, s] for s in whole) for n in speeds]
-    of_packing = {s: statistics.fmean(logs[n, s] for n in speeds) for s in whole}
-    mean = statistics.fmean(of_speed)
-    squares = sum((logs[n, s] - of_packing[s] - m + mean) ** 2 for n, m in zip(speeds, of_speed) for s in whole)
-    chaos = squares / ((len(whole) - 1) * (len(speeds) - 1))
-    return max(0, statistics.variance(of_packing.values()) - chaos / len(speeds)), chaos
+    table = numpy.array([[logs[n, s] for n in speeds] for s in whole])
+    left = table - table.mean(axis=0) - table.mean(axis=1, keepdims=True) + table.mean()
+    chaos = (left**2).sum() / ((len(whole) - 1) * (len(speeds) - 1))
+    return max(0, table.mean(axis=1).var(ddof=1) - chaos / len(speeds)), chaos
 
 
 def truth_of(logs, spread):
     """Generalised least squares of m + b / N: m, its standard error, b."""
-    packing, chaos = spread
-    a = b = c = p = q = 0.0
-    for seed in {s for _, s in logs}:
-        x, y = zip(*((1 / n, value) for (n, s), value in logs.items() if s == seed))
-        share = packing / (chaos + len(x) * packing)  # of the sums, in the inverse of the covariance
-        a += (len(x) - share * len(x) ** 2) / chaos
-        b += (sum(x) - share * len(x) * sum(x)) / chaos
-        c += (sum(v * v for v in x) - share * sum(x) ** 2) / chaos
-        p += (sum(y) - share * len(x) * sum(y)) / chaos
-        q += (sum(u * v for u, v in zip(x, y)) - share * sum(x) * sum(y)) / chaos
-    determinant = a * c - b * b
-    return (c * p - b * q) / determinant, math.sqrt(c / determinant), (a * q - b * p) / determinant
+    speed, seed = numpy.array(list(logs)).T
+    weights = numpy.linalg.inv(spread[0] * (seed[:, None] == seed) + spread[1] * numpy.eye(len(seed)))
+    x = numpy.stack([numpy.ones(len(speed)), 1 / speed], axis=1)
+    covariance = numpy.linalg.inv(x.T @ weights @ x)
+    mean, slope = covariance @ x.T @ weights @ numpy.array(list(logs.values()))
+    return mean, math.sqrt(covariance[0, 0]), slope
 
 
 def logs_of(tables):
@@ -118,7 +106,7 @@ def reference(build, folder, subject, seeds, threads):
     cost = [sum(statistics.fmean(t[k][1] for k in t if k[0] == n) for t in tables) for n in speeds]
     spheres = statistics.fmean(t[k][3] for t in tables for k in t)
     return {"mean": mean, "error": error, "slope": slope, "logs": logs, "spread": spread, "runs": sum(len(t) for t in tables),
-            "deviation": math.sqrt(sum(spread)), "fastest": speeds[0], "steps": line(speeds, cost), "packing": PACKING_STEPS * spheres}
+            "deviation": math.sqrt(sum(spread)), "fastest": speeds[0], "steps": numpy.polyfit(speeds, cost, 1)[::-1], "packing": PACKING_STEPS * spheres}
 
 
 def one_slow_speed(truth, accuracy):
@@ -219,25 +207,17 @@ def text_of(truths, results, rate):
 
 
 def draw(results, png, rate):
-    """Orders against seconds, by gnuplot where it is installed; the script stays beside the picture."""
-    blocks, curves = "", []
-    for colour, subject in enumerate(dict.fromkeys(r["subject"] for r in results), 1):
+    """Accuracies against seconds."""
+    figure, axes = pyplot.subplots(figsize=(10, 6.4))
+    for colour, subject in enumerate(dict.fromkeys(r["subject"] for r in results)):
         mine = sorted((r for r in results if r["subject"] == subject), key=lambda r: r["accuracy"])
-        for number, (name, steps, style) in enumerate((("on order", [r["steps"] for r in mine], "pt 7 dt 1"),
-                                                       ("one slow speed, all known", [r["slow"][2] for r in mine], "pt 6 dt 2"),
-                                                       ("one slow speed, same first batch", [r["blind"] for r in mine], "pt 4 dt 3"))):
-            block = f"${subject}_{number}"
-            rows = "\n".join(f"{rate * s:.6g} {100 * r['accuracy']:g}" for s, r in zip(steps, mine))
-            blocks += f"{block} << EOD\n{rows}\nEOD\n"
-            curves.append(f"{block} with linespoints lc {colour} {style} lw 2 ps 1.5 title '{subject}, {name}'")
-    script = (f"set terminal pngcairo size 1000,640 font 'sans,14'\nset output '{png.resolve()}'\n{blocks}set logscale xy\nset grid\n"
-              "set xlabel 'Seconds of one core'\nset ylabel 'Accuracy that is ordered (%)'\nset yrange [0.7:10]\nset key top right\n"
-              "set ytics (1, 2, 3, 5, 10)\nplot " + ", ".join(curves) + "\n")
-    png.with_suffix(".gnuplot").write_text(script)
-    if shutil.which("gnuplot") is None:
-        print(f"gnuplot is not installed: {png.with_suffix('.gnuplot')} draws {png} where it is")
-        return
-    subprocess.run(["gnuplot", str(png.with_suffix(".gnuplot"))], check=True)
+        for name, steps, style in (("on order", [r["steps"] for r in mine], "o-"), ("one slow speed, all known", [r["slow"][2] for r in mine], "o:"),
+                                   ("one slow speed, same first batch", [r["blind"] for r in mine], "s--")):
+            axes.plot([rate * s for s in steps], [100 * r["accuracy"] for r in mine], style, color=f"C{colour}", label=f"{subject}, {name}")
+    axes.set(xscale="log", yscale="log", xlabel="Seconds of one core", ylabel="Accuracy that is ordered (%)", ylim=(0.7, 10))
+    axes.grid()
+    axes.legend()
+    figure.savefig(png, dpi=100)
 
 
 def main():

@@ -1,35 +1,87 @@
-"""Table of one concrete in every test, beside laboratories. Usage: one.py FOLDER|FILE.csv [SEED...] [unseen SEED...]
+#!/usr/bin/env python3
+"""Table of one concrete in every test, beside laboratories. Usage: one.py FOLDER|FILE.csv
 
 A row is a figure: mean +- standard deviation over packings (how many), of those it was calibrated for and of unseen ones.
-Where the mean lies outside of its band the row says so, in red on a terminal. What the table takes from each run is kept in
-FOLDER/runs.csv (runs.py), which makes the table alone as well.
+Where the mean lies outside of its band the row says so. What the table takes from each run of one.sh is kept in FOLDER/runs.csv, which makes the
+table alone as well.
 """
+import csv
 import math
 import pathlib
+import re
 import statistics
 import sys
 
-import runs
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import platen
 
-words = sys.argv[2:] or ["1", "2", "3", "4", "5", "unseen", "6", "7"]
-cut = words.index("unseen") if "unseen" in words else len(words)
-known, unseen = [int(w) for w in words[:cut]], [int(w) for w in words[cut + 1:]]
-seeds = known + unseen
+KNOWN, UNSEEN = (1, 2, 3, 4, 5), (6, 7)  # seeds
 MPA, GPA = 1e-6, 1e-9
 STRENGTH = "strength_pa"
 PRESSURES = ("1.5", "3", "4.5", "9", "30", "60")
-found = runs.gather(pathlib.Path(sys.argv[1]))
+OF_SUMMARY = ("version", "particles", "pattern", "strength_pa", "strain_at_peak_platen", "youngs_modulus_gauge_pa", "poisson_ratio", "bulk_modulus_pa",
+              "constrained_modulus_pa", "lateral_over_axial_stress", "worse_end_damage", "middle_damage", "energy_residual_relative",
+              "platen_unbalanced_work_relative")
+ENDS = [(f"{state}cone_{end}", f"{state}half_angle_{end}_deg") for state in ("", "final_") for end in ("top", "bottom")]
+OF_HISTORY = ("left_at_1.45", "left_at_0.0345", "least_volume_percent", "volume_at_peak_percent")
+COLUMNS = ("run", *OF_SUMMARY, "least_base_ratio", *(name for _, name in ENDS), *OF_HISTORY)
+
+
+def under_pressure(run):
+    """Of a test in the sleeve: what is left of the deviator at 1.45 times the strain at peak, and at a strain of 3.45e-2, over
+    the largest, none where the run ends before; and the volume inside of the sleeve, %, larger positive, from the bare specimen.
+    Strains count from the end of the consolidation. One that flows has no peak: its strength here is the largest stress."""
+    s, deviator, strain = run.summary, run.history["deviator_pa"], run.history["axial_strain_platen"]
+    peak = int(deviator.argmax())
+    start = strain[run.history["time_s"] >= s["consolidation_end_time_s"]][0]
+
+    def left(further):
+        later = (strain[peak:] >= start + further).nonzero()[0]
+        return deviator[peak + later[0]] / deviator[peak] if later.size else None
+
+    volumes, at_peak = -100 * run.history["volumetric_strain_sleeve"], s["strain_at_peak_platen"]
+    return {STRENGTH: s["largest_stress_pa"] if s[STRENGTH] is None else s[STRENGTH], "left_at_1.45": at_peak and left(1.45 * at_peak),
+            "left_at_0.0345": left(0.0345), "least_volume_percent": volumes[:peak + 1].min(), "volume_at_peak_percent": volumes[peak]}
+
+
+def figures(name, run):
+    """Of a finished run."""
+    s = run.summary
+    found = {"run": name, **{key: s.get(key) for key in OF_SUMMARY}, **{name: (s.get(cone) or {}).get("half_angle_deg") for cone, name in ENDS}}
+    if any(zones := [s.get(f"dead_zone_{end}") for end in ("top", "bottom")]):
+        found["least_base_ratio"] = min((zone or {}).get("base_ratio") or 0.0 for zone in zones)
+    return {**found, **(under_pressure(run) if name.startswith("triaxial_") and not name.startswith("triaxial_0_") else {})}
+
+
+def gather(where):
+    """{name: figures} of a file of runs, or of a folder of studies: its runs.csv and its finished runs, which are added to that file."""
+    kept = where if where.is_file() else where / "runs.csv"
+    found = {row["run"]: row for row in platen.read_table(kept).records()} if kept.exists() else {}
+    if where.is_file():
+        return found
+    for folder in where.glob("*/runs"):
+        for name, run in platen.runs(folder).items():
+            if run.status == "done":  # triaxial, confining_pressure_4.5_mpa_seed_1: triaxial_4.5_1
+                value, seed = re.search(r"(?:_(\d[\d.]*|free)(?:_mm|_mpa)?_)?seed_(\d+)$", name).groups()
+                name = "_".join(filter(None, (folder.parent.name, value, seed)))
+                found[name] = figures(name, run)
+    with open(kept, "w", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(COLUMNS)
+        for name in sorted(found):
+            cells = [found[name].get(column) for column in COLUMNS]
+            table.writerow(["" if cell is None or cell != cell else cell if isinstance(cell, str) else f"{cell:.7g}" for cell in cells])
+    return {row["run"]: row for row in platen.read_table(kept).records()}
+
+
+found = gather(pathlib.Path(sys.argv[1])) if len(sys.argv) == 2 else sys.exit(__doc__)
 
 
 def of_seeds(name, what, scale=1.0):
     """{seed: figure} of each seed whose run has it; `what` is a column or takes the run."""
-    figures = {}
-    for seed in seeds:
-        run = found.get(f"{name}_{seed}")
-        value = run and (what(run) if callable(what) else run[what])
-        if value is not None:
-            figures[seed] = scale * value
-    return figures
+    runs = {seed: found[f"{name}_{seed}"] for seed in KNOWN + UNSEEN if f"{name}_{seed}" in found}
+    values = {seed: what(run) if callable(what) else run[what] for seed, run in runs.items()}
+    return {seed: scale * value for seed, value in values.items() if not math.isnan(value)}
 
 
 def ratio(one, other):
@@ -74,11 +126,11 @@ def verdict(values, low, high):
     mean = statistics.mean(values)
     if (low is None or mean >= low) and (high is None or mean <= high):
         return "within"
-    return "\033[31m**outside**\033[0m" if sys.stdout.isatty() else "**outside**"
+    return "**outside**"
 
 
 def row(what, figures, low=None, high=None, laboratory=""):
-    one, other = ([figures[s] for s in some if s in figures] for some in (known, unseen))
+    one, other = ([figures[s] for s in some if s in figures] for some in (KNOWN, UNSEEN))
     band = "-" if low is None and high is None else \
         f"{'' if low is None else f'{low:.3g}'} ... {'' if high is None else f'{high:.3g}'}"
     words = verdict(one, low, high)
@@ -93,14 +145,14 @@ def heading(what):
 
 def plain():
     heading("Strength, moduli, short and slender")
-    dry, lub = (of_seeds(f"concrete_{ends}", STRENGTH, MPA) for ends in ("dry", "lubricated"))
-    cube, cube_lub = (of_seeds(f"cube_{ends}", STRENGTH, MPA) for ends in ("dry", "lubricated"))
-    prism, prism_lub = (of_seeds(f"prism_{ends}", STRENGTH, MPA) for ends in ("dry", "lubricated"))
-    tension = of_seeds("concrete_tension", STRENGTH, MPA)
-    row("E, GPa", of_seeds("concrete_dry", "youngs_modulus_gauge_pa", GPA), 20, 30)
-    row("Poisson's ratio", of_seeds("concrete_dry", "poisson_ratio"), 0.15, 0.22)
+    dry, lub = (of_seeds(f"concrete_{mu}", STRENGTH, MPA) for mu in ("0.57", "0"))
+    cube, cube_lub = (of_seeds(f"cube_{mu}", STRENGTH, MPA) for mu in ("0.57", "0"))
+    prism, prism_lub = (of_seeds(f"prism_{mu}", STRENGTH, MPA) for mu in ("0.57", "0"))
+    tension = of_seeds("tension", STRENGTH, MPA)
+    row("E, GPa", of_seeds("concrete_0.57", "youngs_modulus_gauge_pa", GPA), 20, 30)
+    row("Poisson's ratio", of_seeds("concrete_0.57", "poisson_ratio"), 0.15, 0.22)
     row("strength, dry, MPa", dry, 35, 50)
-    row("strain at peak, 1e-3", of_seeds("concrete_dry", "strain_at_peak_platen", 1e3), 2, 4)
+    row("strain at peak, 1e-3", of_seeds("concrete_0.57", "strain_at_peak_platen", 1e3), 2, 4)
     row("strength, greased, MPa", lub)
     row("compressive over direct tensile strength", ratio(dry, tension), 8, 12)
     hughes = "Hughes and Bahramian 1967"
@@ -111,19 +163,19 @@ def plain():
     for friction in ("0.0048", "0.03"):
         free = ratio(of_seeds(f"cube_{friction}", STRENGTH, MPA), of_seeds(f"prism_{friction}", STRENGTH, MPA))
         row(f"the same, friction {friction}", free, 1.00, 1.10, "1.04, the same")
-    row("height over diameter .5 over 2, dry", ratio(of_seeds("flat_dry", STRENGTH, MPA), dry), 1.5, 2.2)
+    row("height over diameter .5 over 2, dry", ratio(of_seeds("flat", STRENGTH, MPA), dry), 1.5, 2.2)
     row("1 over 2", ratio(of_seeds("core_50", STRENGTH, MPA), dry), laboratory="1.15 to 1.18, ASTM C42")
     for height, factor in (("62.5", 1 / 0.93), ("75", 1 / 0.96), ("87.5", 1 / 0.98)):
         row(f"{float(height) / 50:g} over 2", ratio(of_seeds(f"core_{height}", STRENGTH, MPA), dry), 0.95 * factor,
             1.05 * factor, f"{factor:.2f}, ASTM C42")
-    row("1.25 over 2, friction 0.1", ratio(of_seeds("core_62.5_0.1", STRENGTH, MPA), of_seeds("friction_0.1", STRENGTH, MPA)),
+    row("1.25 over 2, friction 0.1", ratio(of_seeds("smooth_core_62.5", STRENGTH, MPA), of_seeds("concrete_0.1", STRENGTH, MPA)),
         0.95 / 0.93, 1.05 / 0.93, "1.08, ASTM C42")
-    row("splitting strength over direct tension", ratio(of_seeds("brazilian_concrete", STRENGTH, MPA), tension))
-    row("bending strength over direct tension", ratio(of_seeds("bending_concrete", STRENGTH, MPA), tension),
+    row("splitting strength over direct tension", ratio(of_seeds("splitting", STRENGTH, MPA), tension))
+    row("bending strength over direct tension", ratio(of_seeds("bending", STRENGTH, MPA), tension),
         laboratory="1.3 to 2 in small beams")
-    row("bulk modulus, GPa", of_seeds("hydrostatic_concrete", "bulk_modulus_pa", GPA))
-    row("uniaxial strain: lateral over axial stress", of_seeds("uniaxial_strain_concrete", "lateral_over_axial_stress"))
-    row("constrained modulus, GPa", of_seeds("uniaxial_strain_concrete", "constrained_modulus_pa", GPA))
+    row("bulk modulus, GPa", of_seeds("hydrostatic", "bulk_modulus_pa", GPA))
+    row("uniaxial strain: lateral over axial stress", of_seeds("uniaxial_strain", "lateral_over_axial_stress"))
+    row("constrained modulus, GPa", of_seeds("uniaxial_strain", "constrained_modulus_pa", GPA))
 
 
 def secant(pressure):
@@ -156,13 +208,13 @@ def triaxial():
         at = {"9": ".36", "30": ".63", "60": ".91"}[pressure]
         row(f"least volume at {pressure} MPa ({float(pressure) / fc:.2f} fc), %", of_seeds(f"triaxial_{pressure}", "least_volume_percent"),
             laboratory=f"{least} at {at} fc, Imran and Pantazopoulou 1996")
-        row(f"volume at its peak, %", of_seeds(f"triaxial_{pressure}", "volume_at_peak_percent"), laboratory=f"{peak}, the same")
+        row("volume at its peak, %", of_seeds(f"triaxial_{pressure}", "volume_at_peak_percent"), laboratory=f"{peak}, the same")
 
 
 def biaxial():
     heading("Biaxial strength over uniaxial")
     for platens, name in (("brush", "brush platens"), ("steel", "dry steel")):
-        alone = of_seeds(f"biaxial_{platens}_0", STRENGTH, MPA)
+        alone = of_seeds(f"biaxial_{platens}_free", STRENGTH, MPA)
         for share in ("0.25", "0.5", "1"):
             row(f"{name}, stresses 1 : {share}", ratio(of_seeds(f"biaxial_{platens}_{share}", STRENGTH, MPA), alone),
                 laboratory="1.16 (brushes), Kupfer et al. 1969" if share == "1" else "")
@@ -174,8 +226,8 @@ def has_cones(s):
 
 def friction():
     heading("Friction of platens, cylinders of height over diameter 2, at .8 of the peak")
-    runs = (("concrete_dry", "0.57"), ("friction_0.3", "0.3"), ("friction_0.1", "0.1"), ("concrete_lubricated", "0"))
-    for name, mu in runs:
+    for mu in ("0.57", "0.3", "0.1", "0"):
+        name = f"concrete_{mu}"
         greased, held = mu == "0", mu in ("0.57", "0.3")
         row(f"strength, friction {mu}, MPa", of_seeds(name, STRENGTH, MPA))
         row("damage of the worse end", of_seeds(name, "worse_end_damage"), 0.4 if greased else None, 0.3 if held else None)
@@ -183,10 +235,10 @@ def friction():
         row("r0 of the worse end's dead zone", of_seeds(name, "least_base_ratio"))
         row("share of packings with cones", of_seeds(name, has_cones), 1 if held else None, 0 if greased else None)
     angles = {}
-    for seed in seeds:
-        held = [run for n in ("concrete_dry", "friction_0.3") if (run := found.get(f"{n}_{seed}"))]
+    for seed in KNOWN + UNSEEN:
+        held = [run for n in ("concrete_0.57", "concrete_0.3") if (run := found.get(f"{n}_{seed}"))]
         of_cones = [run[f"half_angle_{end}_deg"] for run in held for end in ("top", "bottom")]
-        of_cones = [angle for angle in of_cones if angle is not None]
+        of_cones = [angle for angle in of_cones if not math.isnan(angle)]
         if of_cones:
             angles[seed] = statistics.mean(of_cones)
     k = secant("9")
@@ -197,10 +249,10 @@ def friction():
 
 def recipe():
     heading("What should not matter, over the cylinder as it is")
-    dry, lub = (of_seeds(f"concrete_{ends}", STRENGTH) for ends in ("dry", "lubricated"))
-    row("platen friction 1 over .57", ratio(of_seeds("friction_1", STRENGTH), dry))
-    row("end layer of .6 over .3 mean radii, dry", ratio(of_seeds("layer_dry", STRENGTH), dry))
-    row("the same, greased", ratio(of_seeds("layer_lubricated", STRENGTH), lub))
+    dry, lub = (of_seeds(f"concrete_{mu}", STRENGTH) for mu in ("0.57", "0"))
+    row("platen friction 1 over .57", ratio(of_seeds("concrete_1", STRENGTH), dry))
+    row("end layer of .6 over .3 mean radii, dry", ratio(of_seeds("layer_0.57", STRENGTH), dry))
+    row("the same, greased", ratio(of_seeds("layer_0", STRENGTH), lub))
     row("half the speed over the speed", ratio(of_seeds("half_rate", STRENGTH), dry))
 
 
@@ -210,6 +262,6 @@ friction()
 biaxial()
 recipe()
 residuals = [run["energy_residual_relative"] for run in found.values()]
-known = [residual for residual in residuals if residual is not None]
+known = [residual for residual in residuals if not math.isnan(residual)]
 print(f"\nLargest energy residual of all runs (1 %): {max(known):.2g}" if known else "\nNo run has an energy residual",
       f"; {len(residuals) - len(known)} runs have none" if len(known) < len(residuals) else "", sep="")

@@ -77,7 +77,14 @@ class View:
     def pixels(self, shrink=SHRINK):
         self.settle()
         self.window.picture(CANVAS, self.file)
-        return small_png.shrunk(*small_png.read(self.file), shrink)[1]
+        return rows_of(self.file, shrink)
+
+
+def rows_of(file, shrink=1):
+    """Rows of a picture, each the bytes of RGB."""
+    picture = small_png.shrunk(file, shrink)
+    data, row = picture.tobytes(), 3 * picture.width
+    return [data[k:k + row] for k in range(0, len(data), row)]
 
 
 def differing(one, other):
@@ -255,7 +262,7 @@ def beside_references(view, write):
         now, file = view.pixels(), HERE / f"report_view_{name}.png"
         if write:
             write_png(file, now)
-        share = differing(now, small_png.read(file)[1])
+        share = differing(now, rows_of(file))
         check(share <= MOST, f"{file.name}: {100 * share:.2f} % of the pixels differ (<= {100 * MOST} %)")
     view.put(**start)
 
