@@ -70,7 +70,7 @@ def read_table(path):
     return Table((name, _column([row[k] for row in rows])) for k, name in enumerate(header))
 
 
-def _read_json(path):
+def read_json(path):
     """The object of a JSON file."""
     try:
         read = json.loads(_read_text(path))
@@ -197,7 +197,7 @@ class Run:
     @property
     def summary(self):
         """summary.json as a dictionary; InputError where the run has not ended."""
-        return self._once("summary", lambda: _read_json(self.folder / "summary.json"))
+        return self._once("summary", lambda: read_json(self.folder / "summary.json"))
 
     @property
     def status(self):
@@ -267,7 +267,7 @@ class Study:
     @cached_property
     def summary(self):
         path = self.folder / "study.json"
-        return _read_json(path) if path.is_file() else {}
+        return read_json(path) if path.is_file() else {}
 
     @property
     def runs(self):

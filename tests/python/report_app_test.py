@@ -8,16 +8,12 @@ import os
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "browser"))
-import made_up_run  # noqa: E402
+from report_folders import InFolder, made_up_run
 
-from platen import report  # noqa: E402
-from platen.report import main, run, words  # noqa: E402
+from platen import report
+from platen.report import main, run, words
 
 CURVE = [(0, 0), (1, 10), (2, 20), (3, 30), (4, 20), (5, 5)]  # strain in 1e-3, MPa
 
@@ -48,11 +44,7 @@ def summary(folder, **more):
     return folder
 
 
-class Folder(unittest.TestCase):
-    def setUp(self):
-        self.folder = Path(tempfile.mkdtemp(prefix="platen report "))
-        self.addCleanup(shutil.rmtree, self.folder)
-
+class Folder(InFolder):
     def refused(self, words_of_error, *arguments, status=2):
         ended, out, err = call(*arguments)
         self.assertEqual(ended, status, err)
@@ -176,7 +168,7 @@ class Refused(Folder):
 
 class Words(Folder):
     def results(self, **more):
-        return words.results_of(report.TestRun(summary(self.folder / f"run{len(list(self.folder.iterdir()))}", **more)))
+        return report.TestRun(summary(self.folder / f"run{len(list(self.folder.iterdir()))}", **more))
 
     def test_the_verdict_is_a_sentence_with_the_strength_and_what_was_expected(self):
         met, missed = ({"entry": "Expect/strength_pa", "range": "25 MPa ... 35 MPa", "value": 30e6, "met": m, "reason": None} for m in (True, False))
@@ -211,7 +203,7 @@ class Words(Folder):
 
     def test_only_figures_with_a_reason_against_them_have_a_row_of_validity(self):
         valid = report.TestRun(summary(self.folder / "a"))
-        self.assertIsNone(words.table_of_validity([valid]))
+        self.assertEqual(words.table_of_validity([valid]).rows, [])
         doubtful = report.TestRun(summary(self.folder / "b", validity={"strength_pa": "valid", "poisson_ratio": ["too few", "too fast"]}))
         self.assertEqual(words.table_of_validity([valid, doubtful]).rows, [["Poisson's ratio", "valid", "too few; too fast"]])
 

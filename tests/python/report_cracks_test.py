@@ -1,14 +1,9 @@
 """Cracks: which count, where they lie, their density over height and radius, and what a rose has by chance."""
 import math
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy
-
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "browser"))
-import made_up_run
+from report_folders import InRun, made_up_run
 
 from platen.errors import InputError
 from platen.report import cracks, house
@@ -49,12 +44,9 @@ class Density(unittest.TestCase):
         self.assertTrue(math.isnan(found.values[16, -1]))
 
 
-class OfARun(unittest.TestCase):
+class OfARun(InRun):
     def setUp(self):
-        kept = tempfile.TemporaryDirectory()
-        self.addCleanup(kept.cleanup)
-        self.path = Path(kept.name) / "run"
-        self.spheres, _ = made_up_run.write_run(self.path, 0.004)
+        super().setUp()
         self.rows = list(made_up_run.cracks(self.spheres))
 
     def rewrite(self, change):

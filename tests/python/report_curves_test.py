@@ -1,41 +1,24 @@
 """Charts of runs: moments of the test, stress, energies, acoustic events, costs, stages, sides, strength under pressure."""
 import json
 import math
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy
+from report_folders import InFolder, lines_of, write_history
 
 from platen.errors import InputError
-from platen.report import comparison, curves, envelope, house, stages
+from platen.report import comparison, curves, envelope, house
 from platen.report.run import TestRun
 
 MPA = 1e6
 
 
-def lines_of(picture):
-    """Of each chart of a picture, its curves by label: arrays n x 2."""
-    return [{line.get_label(): numpy.array(line.get_xydata()) for line in axes.lines} for axes in house.figure_of(picture).axes]
-
-
-class WithRuns(unittest.TestCase):
-    def setUp(self):
-        self.kept = tempfile.TemporaryDirectory(prefix="platen report ")
-        self.addCleanup(self.kept.cleanup)
-
+class WithRuns(InFolder):
     def run_of(self, columns, info=None, scene="", name="run", **files):
-        """A TestRun of columns (axial stress: "z" for both platens), a summary, entries {path: value} and further files."""
-        folder = Path(self.kept.name) / name
+        """A TestRun of columns (see write_history), a summary, entries {path: value} and further files."""
+        folder = self.folder / name
         folder.mkdir(exist_ok=True)
-        columns = dict(columns)
-        if "z" in columns:
-            z = columns.pop("z")
-            columns = {"axial_stress_top_pa": [1.1 * s for s in z], "axial_stress_bottom_pa": [0.9 * s for s in z], **columns}
-        rows = max(map(len, columns.values()))
-        columns = {"time_s": list(range(rows)), "axial_strain_platen": [1e-3 * k for k in range(rows)], **columns}
-        lines = [",".join(columns), *(",".join(map(repr, row)) for row in zip(*columns.values()))]
-        (folder / "history.csv").write_text("\n".join(lines) + "\n")
+        write_history(folder, columns)
         (folder / "summary.json").write_text(json.dumps(info or {}))
         (folder / "scene.prm").write_text(scene)
         for file, text in files.items():
@@ -184,27 +167,27 @@ class Stages(WithRuns):
 
     def test_a_stage_begins_at_the_last_row_of_the_one_before(self):
         run = self.staged()
-        self.assertEqual(stages.stages_of(run), [(1, 0, 2), (2, 2, 5), (3, 5, 6)])
-        self.assertEqual([stages.stage_words(run, k) for k in (1, 2, 3)], ["Lateral x hold, Top stress 1 MPa", "Axial rate", ""])
-        drawn = lines_of(stages.section_of_stages(run).pictures[0])[0]
+        self.assertEqual(curves.stages_of(run), [(1, 0, 2), (2, 2, 5), (3, 5, 6)])
+        self.assertEqual([curves.stage_words(run, k) for k in (1, 2, 3)], ["Lateral x hold, Top stress 1 MPa", "Axial rate", ""])
+        drawn = lines_of(curves.section_of_stages(run).pictures[0])[0]
         numpy.testing.assert_allclose(drawn["2: Axial rate"], [[0, 1], [1, 11], [2, 21], [1.5, 16]], atol=1e-12)
 
     def test_the_table_counts_from_the_end_of_the_consolidation(self):
-        self.assertEqual(stages.table_of_stages(self.staged()).rows, [  # s1 = 6, s2 = 12, s3 = 0 MPa: q = sqrt((36 + 36 + 144) / 2)
+        self.assertEqual(curves.table_of_stages(self.staged()).rows, [  # s1 = 6, s2 = 12, s3 = 0 MPa: q = sqrt((36 + 36 + 144) / 2)
             ["1", "Lateral x hold, Top stress 1 MPa", "settled", "not settled", "2000", "0", "0", "1", "1", "1.732"],
             ["2", "Axial rate", "-", "share of peak", "5000", "1.5", "-0.3", "16", "21", "27.71"],
             ["3", "-", "-", "-", "6000", "0.5", "-0.1", "6", "16", "10.39"]])
 
     def test_a_test_along_x_has_the_strain_of_its_platens_and_across_those_of_the_others(self):
         run = self.staged("x")
-        self.assertEqual(stages.table_of_stages(run).rows[1][5:8], ["4.5", "1.5", "32"])
+        self.assertEqual(curves.table_of_stages(run).rows[1][5:8], ["4.5", "1.5", "32"])
         self.assertEqual(run.strain_title, "Strain along x between platens from the end of consolidation (mm/m)")
 
     def test_a_circumference_that_is_measured_is_the_strain_across(self):
         run = self.staged(circumferential_strain=[0, 1e-4, 2e-4, 3e-4, 4e-4, 7e-4, 9e-4], confining_pressure_pa=[MPA] * 7)
-        table = stages.table_of_stages(run)
+        table = curves.table_of_stages(run)
         self.assertEqual((table.header[6], table.rows[1][6], table.rows[1][9]), ("circumferential strain (mm/m)", "-0.5", "15"))
-        self.assertIsNone(stages.section_of_stages(self.run_of({"z": [0, 1]}, name="none")))
+        self.assertIsNone(curves.section_of_stages(self.run_of({"z": [0, 1]}, name="none")))
 
 
 class Sides(WithRuns):
@@ -217,9 +200,9 @@ class Sides(WithRuns):
         return self.run_of(columns, scene=scene, name=name)
 
     def test_platens_are_known_by_their_columns(self):
-        self.assertEqual(stages.sides_of(self.pressed(10)), ["bottom", "top"])
-        self.assertEqual(stages.sides_of(self.pressed(10, name="four", front=2, back=2)), ["bottom", "top", "front", "back"])
-        self.assertIsNone(stages.section_of_sides(self.pressed(10, 3, "cell")))
+        self.assertEqual(curves.sides_of(self.pressed(10)), ["bottom", "top"])
+        self.assertEqual(curves.sides_of(self.pressed(10, name="four", front=2, back=2)), ["bottom", "top", "front", "back"])
+        self.assertIsNone(curves.section_of_sides(self.pressed(10, 3, "cell")))
 
     def test_stress_paths_are_those_of_closed_forms(self):
         s = 30 * MPA
@@ -228,13 +211,13 @@ class Sides(WithRuns):
                 (5 * s / 9, 2 * s / 3, {"axial": s, "pressure": s / 3}),
                 (s, 0, {"axial": s, "left": s, "right": s, "front": s, "back": s}),
                 (s, math.sqrt(3) * s, {"axial": 2 * s, "left": 0.8 * s, "right": 1.2 * s}))):
-            path = stages.stress_path(self.pressed(name=str(k), **run))
+            path = curves.stress_path(self.pressed(name=str(k), **run))
             numpy.testing.assert_allclose([path[0][2], path[1][2]], [p, q], rtol=1e-12, atol=1e-6)
-        self.assertEqual([stages.has_stress_path(run) for run in (
+        self.assertEqual([curves.has_stress_path(run) for run in (
             self.pressed(s), self.pressed(s, 1, "a"), self.pressed(s, name="b", left=0, right=0))], [False, True, True])
 
     def test_the_table_has_a_row_for_each_platen(self):
-        section = stages.section_of_sides(self.pressed(20 * MPA, left=3 * MPA, right=4 * MPA))
+        section = curves.section_of_sides(self.pressed(20 * MPA, left=3 * MPA, right=4 * MPA))
         self.assertEqual([row for row in section.tables[0].rows if row[0] in ("bottom", "right")],
                          [["bottom", "19.8", "19.8", "-"], ["right", "4", "4", "0.75"]])
         numpy.testing.assert_allclose(lines_of(section.pictures[0])[0]["right"][2], [2, 4])

@@ -1,15 +1,14 @@
 """Fields on a grid: what comes out is what was put in, whatever the grid; the platens' forces are in the stress, and each body keeps to
-itself. Also writes the frames that other tests of the report need."""
+itself."""
 import json
 import math
 import re
 import struct
-import tempfile
 import unittest
 import zlib
-from pathlib import Path
 
 import numpy
+from report_folders import InFolder, write_history, write_series
 
 from platen.errors import InputError
 from platen.report import fields, house
@@ -18,27 +17,6 @@ from platen.vtu import Grid, read_pvd
 
 REACH = 3.5  # in mean radii
 RADIUS, FORCE, SHARE, STEEL = 0.01, 50.0, 0.6, -7e6  # m, N, 1, Pa
-
-
-def write_series(folder, name, frames):
-    """NAME.pvd with frames {time: (points, {array: values}) or (points, arrays, elements)}."""
-
-    def array(of, values, kind="Float64"):
-        width = numpy.shape(values)[1] if numpy.ndim(values) > 1 else 1
-        text = " ".join(map(repr, numpy.ravel(values).tolist()))
-        return f'<DataArray type="{kind}" Name="{of}" NumberOfComponents="{width}" format="ascii">{text}</DataArray>'
-
-    entries = []
-    for k, (time, (points, arrays, *elements)) in enumerate(frames.items()):
-        cells = numpy.array(elements[0]) if elements else numpy.arange(len(points)).reshape(-1, 1)
-        ends = cells.shape[1] * numpy.arange(1, len(cells) + 1)
-        (folder / f"{name}_{k}.vtu").write_text(
-            f'<VTKFile type="UnstructuredGrid" byte_order="LittleEndian"><UnstructuredGrid><Piece NumberOfPoints="{len(points)}" '
-            f'NumberOfCells="{len(cells)}"><Points>{array("Points", numpy.reshape(points, (-1, 3)))}</Points><PointData>'
-            + "".join(array(*one) for one in arrays.items()) + f'</PointData><Cells>{array("connectivity", cells.ravel(), "Int64")}'
-            f'{array("offsets", ends, "Int64")}</Cells></Piece></UnstructuredGrid></VTKFile>')
-        entries.append(f'<DataSet timestep="{time}" file="{name}_{k}.vtu"/>')
-    (folder / f"{name}.pvd").write_text(f'<VTKFile type="Collection"><Collection>{"".join(entries)}</Collection></VTKFile>')
 
 
 def grid_of(origin, spacing, nodes):
@@ -132,21 +110,15 @@ class Elements(unittest.TestCase):
             fields.in_hexahedra(grid, Grid(points, {}, {}, {}, numpy.arange(4), numpy.array([4])), "platens.pvd")
 
 
-class OneSphere(unittest.TestCase):
+class OneSphere(InFolder):
     """On an elastic platen, pressed from above, with some shear from below."""
 
-    def setUp(self):
-        self.kept = tempfile.TemporaryDirectory(prefix="platen report ")
-        self.folder = Path(self.kept.name)
-        self.addCleanup(self.kept.cleanup)
-
     def run_of(self, shear=0.0, info=None, contacts=None):
-        (self.folder / "history.csv").write_text("time_s,axial_strain_platen,axial_stress_top_pa,axial_stress_bottom_pa\n0,0,0,0\n"
-                                                 "1,0.001,1e6,1e6\n")
+        write_history(self.folder, {"z": [0, 1e6]})
         (self.folder / "summary.json").write_text(json.dumps({"packing_fraction": SHARE} if info is None else info))
         write_series(self.folder, "specimen", {1: ([[0, 0, RADIUS]], {
             "radius": [RADIUS], "displacement": [[0, 0, -1e-5]], "stress": [[1e3, 0, 0, 0, 2e3, 0, 0, 0, 3e3]], "id": [7],
-            "intact_bonds": [3], "broken_bonds": [1]})})
+            "intact_bonds": [3], "broken_bonds": [1], "fragment": [0]})})
         write_series(self.folder, "contacts", {1: contacts or ([[0, 0, 0], [0, 0, 2 * RADIUS], [0, 0, 0]], {
             "normal": [[0, 0, 1], [0, 0, -1], [0, 0, 1]], "shear": [[shear, 0, 0], [0, 0, 0], [0, 0, 0]],
             "normal_force": [FORCE, FORCE, 1e9], "particle": [7, 7, 8]})})  # the last is of a sphere of another time

@@ -1,25 +1,19 @@
 """A laboratory's raw file: headers, separators, units, signs and noise; figures beside those of a run."""
 import json
 import math
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy
+from report_folders import InFolder, lines_of, write_history
 
 from platen.errors import InputError
-from platen.report import curves, house, laboratory
+from platen.report import curves, laboratory
 from platen.report.run import TestRun
 
 ROWS = ((0, 0), (1, 10), (2, 20), (3, 5), (4, 4))
 
 
-class Laboratory(unittest.TestCase):
-    def setUp(self):
-        self.kept = tempfile.TemporaryDirectory(prefix="platen report ")
-        self.folder = Path(self.kept.name)
-        self.addCleanup(self.kept.cleanup)
-
+class Laboratory(InFolder):
     def read(self, text, coding="utf-8", **more):
         path = self.folder / "core.csv"
         path.write_bytes(text.encode(coding))
@@ -113,9 +107,8 @@ class Laboratory(unittest.TestCase):
             laboratory.read(self.folder / "none.csv")
 
     def run_with(self, stress, sign=1, **info):
-        lines = ["time_s,axial_strain_platen,axial_stress_top_pa,axial_stress_bottom_pa",
-                 *(f"{k},{sign * 1e-3 * k},{sign * 1e6 * s},{sign * 1e6 * s}" for k, s in enumerate(stress))]
-        (self.folder / "history.csv").write_text("\n".join(lines) + "\n")
+        strain = [sign * 1e-3 * k for k in range(len(stress))]
+        write_history(self.folder, {"axial_strain_platen": strain, "z": [sign * 1e6 * s for s in stress]})
         (self.folder / "summary.json").write_text(json.dumps(info))
         return TestRun(self.folder)
 
@@ -135,7 +128,7 @@ class Laboratory(unittest.TestCase):
         for sign in (1, -1):
             pictures = curves.pictures_of_curves(self.run_with([0, 5, 3], sign), curve)
             picture, = (picture for picture in pictures if picture.name == "laboratory")
-            drawn = {line.get_label(): line.get_xydata() for line in house.figure_of(picture).axes[0].lines}
+            drawn = lines_of(picture)[0]
             numpy.testing.assert_allclose(drawn["laboratory"][2], [sign * 2, sign * 20])
             numpy.testing.assert_allclose(drawn[f"{self.folder.name}, between platens"][1], [sign * 1, sign * 5])
         self.assertNotIn("laboratory", [picture.name for picture in curves.pictures_of_curves(self.run_with([0, 5, 3]))])

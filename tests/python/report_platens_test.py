@@ -1,12 +1,9 @@
 """Platens and ends: friction, pressure and shear, strips, sides; numbers by closed forms, and which pictures a run has."""
 import math
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy
-
-from report_fields_test import write_series
+from report_folders import InFolder, lines_of, write_history, write_series
 
 from platen.errors import InputError
 from platen.report import house, platens
@@ -34,17 +31,10 @@ def ends():
         "slip": [2e-6] * (2 * COUNT + 5)})
 
 
-class Runs(unittest.TestCase):
-    def setUp(self):
-        self.kept = tempfile.TemporaryDirectory(prefix="platen report ")
-        self.folder = Path(self.kept.name)
-        self.addCleanup(self.kept.cleanup)
-
+class Runs(InFolder):
     def run_of(self, scene=None, sides=(), of_ends=None, corner=1):
         """A run with further sides, entries of Platens, contacts, and spheres around a circle, and beyond it by `corner`."""
-        columns = ["axial_strain_platen", "axial_stress_bottom_pa", "axial_stress_top_pa", *(f"stress_{side}_pa" for side in sides)]
-        (self.folder / "history.csv").write_text("\n".join(["time_s," + ",".join(columns), *(
-            f"{time}," + ",".join(["0.1", *["1e6" if time == 1 else "0"] * (len(columns) - 1)]) for time in range(3))]) + "\n")
+        write_history(self.folder, {"z": [0, 1e6, 0], **{f"stress_{side}_pa": [0, 1e6, 0] for side in sides}})
         (self.folder / "scene.prm").write_text("subsection Platens\n" + "".join(
             f"set {key} = {value}\n" if "/" not in key else f"subsection {key.split('/')[0]}\nset {key.split('/')[1]} = {value}\nend\n"
             for key, value in (scene or {}).items()) + "end\n")
@@ -56,7 +46,7 @@ class Runs(unittest.TestCase):
         places = numpy.concatenate([places + [0, 0, 1e-3], places + [0, 0, 0.1 - 1e-3]])
         one = numpy.ones(16)
         write_series(self.folder, "specimen", {0: (places, {"radius": 1e-3 * one, "displacement": 0 * places, "intact_bonds": one,
-                                                            "broken_bonds": 0 * one})})
+                                                            "broken_bonds": 0 * one, "fragment": 0 * one})})
         return TestRun(self.folder)
 
 
@@ -166,10 +156,9 @@ class Strips(Runs):
             "normal": [[0, 0, 1]] * 2, "shear": [[0, 0, 0]] * 2, "normal_force": [100, 300], "sliding": [0, 0], "slip": [0, 0]}
         run = self.run_of({"Strip width": "5 mm", "Span": "40 mm"}, of_ends=(points, arrays))
         picture = next(p for p in platens.pictures_of_ends(run) if p.name == "strip_loads")
-        lines = {line.get_label(): line.get_ydata() for line in house.figure_of(picture).axes[0].lines}
-        width = 2 * RADIUS / 12  # a part: four radii of spheres
-        numpy.testing.assert_allclose(lines["left support"][[0, -1]], [0.1 / width, 0])  # kN/m
-        numpy.testing.assert_allclose(lines["right support"][[0, -1]], [0, 0.3 / width])
+        lines, width = lines_of(picture)[0], 2 * RADIUS / 12  # a part: four radii of spheres
+        numpy.testing.assert_allclose(lines["left support"][[0, -1], 1], [0.1 / width, 0])  # kN/m
+        numpy.testing.assert_allclose(lines["right support"][[0, -1], 1], [0, 0.3 / width])
 
 
 class Pictures(Runs):

@@ -1,30 +1,24 @@
 """Pages of packings, bond tests, bars and calibrations: numbers against closed forms, what is drawn, what is refused."""
 import json
 import math
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy
+from report_folders import InFolder
 
 from platen.errors import InputError
-from platen.report import calibration, house, pages, programs
+from platen.report import house, pages, programs
 
 BONDS = "run,modulus_pa,stiffness_ratio,force_n,displacement_m,moment_nm,rotation_rad,strain_ratio,by_hand,difference\n"
 TWO = numpy.array([[0, 0, 1], [0, 0, 3.0]])
 
 
-class OfPrograms(unittest.TestCase):
-    def setUp(self):
-        kept = tempfile.TemporaryDirectory(prefix="platen report ")
-        self.addCleanup(kept.cleanup)
-        self.folder = Path(kept.name)
-
-    def page(self, info, module=programs, **files):
+class OfPrograms(InFolder):
+    def page(self, info, **files):
         for name, text in {"summary.json": json.dumps(info) if info else "", **files}.items():
             if text:
                 (self.folder / name).write_text(text)
-        return module.page_of(self.folder)
+        return programs.page_of(self.folder)
 
     @staticmethod
     def axes(made, name):
@@ -97,7 +91,7 @@ class Bonds(OfPrograms):
         numpy.testing.assert_allclose(closed.get_xydata(), [[0, 0], [3.3, 500], [6.6, 1000]])
 
     def test_a_bond_that_is_bent_is_drawn_by_its_moment_and_its_closed_form_may_be_the_load(self):
-        made = self.page({"app": "platen-bonds"}, **{"bonds.csv": BONDS + "1,1e11,0.5,0,0,2,3,,2.5,-0.2\n"})
+        made = self.page({"app": "platen-bonds"}, **{"bonds.csv": BONDS[:-1] + ",shear_by_hand_n\n1,1e11,0.5,0,0,2,3,,2.5,-0.2,0\n"})
         measured, closed = self.axes(made, "bonds")[0].lines
         numpy.testing.assert_allclose(measured.get_xydata()[1], [3000, 2])
         numpy.testing.assert_allclose(closed.get_xydata()[1], [3000, 2.5])
@@ -149,7 +143,7 @@ def calibrated():
 
 class Calibrations(OfPrograms):
     def test_targets_stand_beside_calibrated_values_and_a_curve_by_what_it_is_judged_by(self):
-        made = self.page(calibrated(), calibration)
+        made = self.page(calibrated())
         targets, found = made.sections[0].tables
         self.assertEqual(targets.rows, [["compressive strength (MPa)", "43", "41 ... 43.2 (3)", "40 (1)", "5 %", "no"],
                                         ["curve miss", "the curve", "off by 4.53 %", "-", "5 %", "yes"]])
@@ -158,7 +152,7 @@ class Calibrations(OfPrograms):
         self.assertEqual(made.leads[0], "Not met: 1 target.")
 
     def test_values_are_drawn_over_their_targets_within_the_tolerance(self):
-        axes = self.axes(self.page(calibrated(), calibration), "targets")[0]
+        axes = self.axes(self.page(calibrated()), "targets")[0]
         numpy.testing.assert_allclose([line.get_xdata()[0] for line in axes.lines if line.get_marker() in "os"], [42 / 43, 40 / 43])
         box = axes.patches[0]
         numpy.testing.assert_allclose([box.get_x(), box.get_x() + box.get_width()], [0.95, 1.05])
@@ -168,28 +162,28 @@ class Calibrations(OfPrograms):
         rows = "0.001,20e6,18e6,17e6\n0.002,30e6,31e6,\n"
         files = {f"curve{end}.csv": f"strain_{of},wanted_pa,calibrated_pa,unseen_pa\n{rows}"
                  for end, of in (("", "platen"), ("_2", "gauge"), ("_10", "gauge"))}
-        made = self.page(calibrated(), calibration, **files)
+        made = self.page(calibrated(), **files)
         self.assertEqual([picture.name for picture in made.sections[-1].pictures], ["curve", "curve_2", "curve_10"])
         axes = self.axes(made, "curve")[0]
         self.assertEqual({line.get_label(): line.get_xydata().tolist() for line in axes.lines}["target"], [[0, 0], [1, 20], [2, 30]])
         self.assertIn("between platens", axes.get_xlabel())
-        self.refused("curve.csv: no column unseen_pa", calibrated(), calibration,
+        self.refused("curve.csv: no column unseen_pa", calibrated(),
                      **{"curve.csv": "strain_platen,wanted_pa,calibrated_pa\n1,2,3\n"})
 
     def test_an_abacus_has_a_curve_for_each_choice_and_moduli_over_that_of_the_bonds(self):
         rows = [{"bond_modulus_pa": e, "stiffness_ratio": None, "radius_multiplier": r, "bond_poisson_ratio": nu,
                  "youngs_modulus_gauge_pa": e * r / 2, "poisson_ratio": nu * r}
                 for r in (0.5, 1.0) for nu in (0.0, 0.3) for e in (65e9, 130e9)]
-        young, poisson = self.axes(self.page({"app": "platen-calibrate", "abacus": rows}, calibration), "abacus")
+        young, poisson = self.axes(self.page({"app": "platen-calibrate", "abacus": rows}), "abacus")
         self.assertEqual([line.get_xydata().tolist() for line in young.lines], [[[0.5, 0.25], [1, 0.5]]] * 2)
         self.assertEqual(poisson.lines[1].get_ydata().tolist(), [0.15, 0.3])
 
     def test_damage_is_said_and_another_folder_passed_over(self):
-        self.assertIsNone(self.page({"app": "platen-pack"}, calibration))
+        self.assertIsNone(self.page({"app": "platen-compress"}))
         damaged = calibrated()
         del damaged["targets"][0]["wanted"]
-        self.refused("summary.json: damaged: no wanted", damaged, calibration)
-        self.assertEqual(self.page({"app": "platen-calibrate", "targets": []}, calibration).remarks,
+        self.refused("summary.json: damaged: no wanted", damaged)
+        self.assertEqual(self.page({"app": "platen-calibrate", "targets": []}).remarks,
                          ["summary.json has no value of a target: there is no picture of them"])
 
 

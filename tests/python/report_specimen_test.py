@@ -1,16 +1,12 @@
 """Pictures of the specimen: what stands where, what hides what, colours, cones; and of several runs."""
 import json
 import math
-import sys
-import tempfile
 import unittest
 from pathlib import Path
 from types import SimpleNamespace
 
 import numpy
-
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "browser"))
-import made_up_run
+from report_folders import InRun, made_up_run
 
 from platen.errors import InputError
 from platen.report import house, run, specimen, spheres
@@ -24,13 +20,6 @@ def spheres_at(initial, position=None, radius=0.001, broken=0, intact=0, **more)
     column = lambda value: numpy.broadcast_to(numpy.asarray(value, float), len(initial))
     return run.Spheres(0, initial if position is None else numpy.array(position, float), initial, column(radius), column(intact),
                        column(broken), more.get("fragment"), None, {})
-
-
-class Start:
-    """Of a run that has its spheres alone."""
-
-    def __init__(self, places):
-        self.start = spheres_at(places)
 
 
 def picture_of(draw, extent=CYLINDER, inches=(2.0, 4.0), **more):
@@ -79,7 +68,7 @@ class Values(unittest.TestCase):
         flat, thin = abs(j) < 1, abs(k) <= 2
         forms = {"cylinder": grid[flat & (i**2 + k**2 <= 100)], "box": grid[flat], "disc": grid[thin & (i**2 + j**2 <= 100)],
                  "bar": grid[thin & (abs(j) <= 2)]}
-        found = {name: run._extent(Start(places)) for name, places in forms.items()}
+        found = {name: run.extent_of(spheres_at(places)) for name, places in forms.items()}
         self.assertEqual({name: (e.form, e.is_plane) for name, e in found.items()},
                          {"cylinder": ("cylinder", False), "box": ("box", False), "disc": ("disc", True), "bar": ("box", True)})
         self.assertAlmostEqual(found["box"].half_width, 0.021)  # centres reach to 0.02, skins one radius further
@@ -223,13 +212,7 @@ class Cones(unittest.TestCase):
             self.assertAlmostEqual(angle(times), angle(1), 12)
 
 
-class Pictures(unittest.TestCase):
-    def setUp(self):
-        kept = tempfile.TemporaryDirectory()
-        self.addCleanup(kept.cleanup)
-        self.path = Path(kept.name) / "run"
-        made_up_run.write_run(self.path, 0.005)
-
+class Pictures(InRun):
     def test_there_are_those_that_the_files_allow(self):
         names = lambda: [p.name for p in specimen.pictures_of_specimen(run.TestRun(self.path))]
         always = ["specimen_outside", "specimen_inside", "outward_displacement", "damage", "fragments"]

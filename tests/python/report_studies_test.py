@@ -2,15 +2,14 @@
 import json
 import math
 import shutil
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy
+from report_folders import InFolder, write_history
 
 from platen.errors import InputError
 from platen.report import house, pages, studies
-from platen.report.kit import Spread, over_packings
+from platen.report.words import Spread, over_packings
 
 
 def spread(mean, half=0.0, runs=3):
@@ -53,11 +52,10 @@ def parameters(kind, *cases):
     return {"kind": kind, "status": "done", "runs": 9, "failed_runs": 0, "cases": list(cases)}
 
 
-class OfStudies(unittest.TestCase):
+class OfStudies(InFolder):
     def setUp(self):
-        kept = tempfile.TemporaryDirectory(prefix="platen report ")
-        self.addCleanup(kept.cleanup)
-        self.folder = Path(kept.name) / "study"
+        super().setUp()
+        self.folder = self.folder / "study"
         self.folder.mkdir()
 
     def page(self, study, **files):
@@ -68,8 +66,7 @@ class OfStudies(unittest.TestCase):
     def run_of(self, name, stress, validity=None):
         folder = self.folder / "runs" / name
         folder.mkdir(parents=True)
-        rows = "".join(f"{k},{1e-3 * k},{s},{s}\n" for k, s in enumerate(stress))
-        (folder / "history.csv").write_text("time_s,axial_strain_platen,axial_stress_top_pa,axial_stress_bottom_pa\n" + rows)
+        write_history(folder, {"axial_stress_top_pa": stress, "axial_stress_bottom_pa": stress})
         (folder / "summary.json").write_text(json.dumps({"status": "done", "validity": validity or {}}))
 
     @staticmethod
@@ -216,14 +213,14 @@ class Cases(OfStudies):
         self.page(friction())
         cubes = self.folder.with_name("cubes")
         shutil.copytree(self.folder, cubes)
-        made = studies.comparison([self.folder, cubes])
+        made = studies.page_of(self.folder, cubes)
         lines, symbols = self.curves(self.pictures(made)["strength_friction"], 0)
         self.assertEqual(list(lines), [f"{name}: height/width {h}" for name in ("study", "cubes") for h in (1, 2)])
         self.assertEqual(len(self.curves(self.pictures(made)["strength_friction"], 1)[1]), 1)  # a laboratory is drawn once
         (cubes / "study.json").write_text(json.dumps(parameters("rate", case("a", 4e7, axial_rate_m_s=0.1))))
         for other, words in ((cubes, "cubes is of a study of rate"), (self.folder.parent, "holds no study")):
             with self.assertRaisesRegex(InputError, words):
-                studies.comparison([self.folder, other])
+                studies.page_of(self.folder, other)
 
     def test_what_is_no_finished_study_is_refused(self):
         self.assertIsNone(studies.page_of(self.folder))

@@ -2,18 +2,15 @@
 import base64
 import math
 import shutil
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
 import numpy
-
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "browser"))
-import made_up_run
+from report_folders import made_up_run
 
 from platen.errors import InputError
-from platen.report import house, sleeve, view
+from platen.report import house, specimen, view
 from platen.report.run import TestRun
 from platen.vtu import Grid
 
@@ -128,7 +125,7 @@ class Bodies(WithRun):
 class Sleeve(WithRun):
     def test_each_face_has_its_corners_from_low_to_high(self):
         grid = self.run_.series("sleeve")[-1]  # deformed: the faces are those of before
-        faces = sleeve.faces_of(grid, "x")
+        faces = specimen.faces_of(grid, "x")
         for of, radius in ((faces.inner, made_up_run.RADIUS), (faces.outer, made_up_run.RADIUS + made_up_run.WALL)):
             self.assertEqual(of.shape, (AROUND * ALONG, 4))
             x, y, z = faces.initial[of].transpose(2, 0, 1)
@@ -139,11 +136,11 @@ class Sleeve(WithRun):
 
     def test_stretch_pressure_and_slip_are_those_of_a_known_bulge(self):
         frames = self.run_.series("sleeve")
-        faces = sleeve.faces_of(frames[0], "x")
+        faces = specimen.faces_of(frames[0], "x")
         height = faces.initial[faces.inner][:, ::2, 2] / made_up_run.HEIGHT  # of both edges around
         for time, grid in zip(self.times, (frames[k] for k in range(len(frames)))):
             grid.point_data["contact_pressure"] = 1e6 * numpy.arange(len(grid.points))
-            around, along, pressure, slip = sleeve.state(faces, grid, "x")
+            around, along, pressure, slip = specimen.state(faces, grid, "x")
             bulge = 0.06 * numpy.sin(math.pi * height) * max(0, time - 0.8)
             numpy.testing.assert_allclose(around, bulge.mean(1), atol=1e-9)
             slope = made_up_run.RADIUS * (bulge[:, 1] - bulge[:, 0]) * ALONG / made_up_run.HEIGHT
@@ -153,17 +150,17 @@ class Sleeve(WithRun):
             numpy.testing.assert_allclose(slip, 1e-4 * time)
 
     def test_what_is_no_tube_is_refused(self):
-        specimen, frames = self.run_.series("specimen")[0], self.run_.series("sleeve")
+        spheres, frames = self.run_.series("specimen")[0], self.run_.series("sleeve")
         with self.assertRaisesRegex(InputError, "x: holds other elements than hexahedra"):
-            sleeve.faces_of(specimen, "x")
+            specimen.faces_of(spheres, "x")
         with self.assertRaisesRegex(InputError, "x: another sleeve than in the first frame"):
-            sleeve.state(sleeve.faces_of(frames[0], "x"), specimen, "x")
+            specimen.state(specimen.faces_of(frames[0], "x"), spheres, "x")
         aside = numpy.array(made_up_run.brick((0.01, 0, 0), (0.02, 0.01, 0.01)))
         with self.assertRaisesRegex(InputError, "x: no tube around the axis"):
-            sleeve.faces_of(Grid(aside, {"displacement": 0 * aside}, {}, {}, numpy.arange(8), numpy.array([8])), "x")
+            specimen.faces_of(Grid(aside, {"displacement": 0 * aside}, {}, {}, numpy.arange(8), numpy.array([8])), "x")
 
     def test_it_is_drawn_where_it_is_and_unrolled_over_its_whole_circumference(self):
-        pictures = sleeve.pictures_of_sleeve(self.run_)
+        pictures = specimen.pictures_of_sleeve(self.run_)
         self.assertEqual([p.name for p in pictures], ["sleeve", "sleeve_unrolled"])
         axes = house.figure_of(pictures[1]).axes[1]
         self.assertEqual(axes.get_title(loc="left"), "at the end: stretch around (%)")
@@ -174,7 +171,7 @@ class Sleeve(WithRun):
         bare = self.path.with_name("bare")
         shutil.copytree(self.path, bare)
         (bare / "sleeve.pvd").unlink()
-        self.assertEqual(sleeve.pictures_of_sleeve(TestRun(bare)), [])
+        self.assertEqual(specimen.pictures_of_sleeve(TestRun(bare)), [])
         self.assertNotIn("sleeve", view.pack(TestRun(bare))[0])
 
 

@@ -4,24 +4,45 @@
     report.page("results/demo_dry")                       # or of a platen.Run: pictures/report.html in its folder
     run = report.TestRun("results/demo_dry")              # a platen.Run with the moments of its test
     report.curves.stress(axes, [run])                     # each chart draws on axes of yours
-    report.specimen.outward(axes, run, run.peak_time)
+    report.specimen.outward_displacement(axes, run, run.peak_time)
 
-Modules: curves, stages, comparison, envelope (charts of runs), laboratory (measured curves), specimen, cracks, sleeve, platens,
-fields (pictures), studies, precision, calibration, programs (pages of other results), house (how pictures are made), pages.
+Modules: curves, comparison, envelope (charts of runs), laboratory (measured curves), specimen, cracks, platens, fields (pictures),
+studies, precision, programs (pages of other results), house (how pictures are made), pages.
 """
 import importlib
+from pathlib import Path
 
-_MODULES = ("calibration", "comparison", "cracks", "curves", "envelope", "fields", "house", "laboratory", "pages", "platens", "precision",
-            "programs", "sleeve", "specimen", "stages", "studies", "words")
+from ..errors import InputError
+
+_MODULES = ("comparison", "cracks", "curves", "envelope", "fields", "house", "laboratory", "pages", "platens", "precision", "programs",
+            "specimen", "studies", "words")
 
 
-def page(run, output=None, forms=(), compare=()):
+def page(run, output=None, forms=(), compare=(), measured=None, write_fields=False, say=lambda *_: None):
     """Draws the page of a run, a study, a calibration or another program's results into `output` (FOLDER/pictures), from a
-    folder or a platen.Run; forms: further files of each chart ("pdf", "svg"). Returns the path of report.html. InputError,
-    OutputError."""
-    from .main import report_on
+    folder or a platen.Run; forms: further files of each chart ("pdf", "svg"); measured: (file, columns) of a laboratory's curve;
+    write_fields: fields.write_fields too. Returns the path of report.html. InputError, OutputError."""
+    from . import comparison, fields, laboratory, pages, programs, studies
+    from .run import TestRun
 
-    return report_on(getattr(run, "folder", run), output, forms, compare)[0]
+    folder = Path(getattr(run, "folder", run))
+    if not folder.is_dir():
+        raise InputError(f"{folder}: no such folder")
+    of_study = (folder / "study.json").exists()
+    made = studies.page_of(folder, *compare) if of_study else programs.page_of(folder)
+    for option, what, asked in (("--compare", "runs and studies", compare and not of_study), ("--laboratory", "runs", measured),
+                                ("--fields", "runs", write_fields)):
+        if made is not None and asked:
+            raise InputError(f"{option} is for {what}; {folder} holds none")
+    if made is None:
+        tests = [TestRun(each) for each in (folder, *compare)]
+        for test in tests:
+            test.read_all()
+        made = comparison.page_of_runs(tests, laboratory.of_specimen(tests[0], *measured) if measured else None)
+    path = pages.write(made, output or folder / "pictures", forms, say)
+    if write_fields:
+        say(f"fields: {fields.write_fields(tests[0])}")
+    return path
 
 
 def __getattr__(name):

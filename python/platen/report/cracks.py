@@ -1,27 +1,21 @@
 """Where, when and which way bonds broke: discs in the half specimen, their density over height and distance from the axis, a rose."""
+from collections import namedtuple
 from functools import partial
-from typing import NamedTuple
 
-import matplotlib
 import numpy
 from matplotlib.colors import Normalize, to_rgb
 
 from ..errors import InputError
-from .house import BLUE, MM, SKY, VERMILION, Picture, chart, colour_bar, legend
-from .kit import bars
+from .house import BLUE, MM, SKY, VERMILION, VIRIDIS, Picture, bars, chart, colour_bar, legend_above
+from .run import rows_of
 from .spheres import DAMAGE, Scene, panels
 
 FEWEST = 5  # bonds of a cell with a share
 
 
-class Cracks(NamedTuple):
-    """Broken bonds as columns. place: middle between their spheres before the test, of spheres that are not known where it broke."""
-
-    place: numpy.ndarray  # n x 3, m
-    normal: numpy.ndarray  # n x 3
-    area: numpy.ndarray  # m2
-    tension: numpy.ndarray  # else shear
-    time: numpy.ndarray  # s
+class Cracks(namedtuple("Cracks", "place normal area tension time")):
+    """Broken bonds as columns. place: n x 3, m, middle between their spheres before the test, of spheres that are not known where it
+    broke; normal: n x 3; area: m2; tension: else shear; time: s."""
 
     def where(self, chosen):
         return Cracks(*(column[chosen] for column in self))
@@ -36,21 +30,15 @@ def cracks_until(run, time):
         raise InputError(f'{run.folder / "cracks.csv"}:{wrong[0] + 2}: mode "{mode[wrong[0]]}" is neither tension nor shear')
     place, normal = (numpy.column_stack([table[name] for name in names]) for names in (("x_m", "y_m", "z_m"), ("nx", "ny", "nz")))
     if run.series("specimen") and len(mode):
-        number = run.start.fields["id"]
-        order = numpy.argsort(number)
-        rows = [order[numpy.searchsorted(number, table[name], sorter=order).clip(0, len(order) - 1)]
-                for name in ("particle_a", "particle_b")]
-        known = (number[rows[0]] == table["particle_a"]) & (number[rows[1]] == table["particle_b"])
-        place[known] = (run.start.initial[rows[0]] + run.start.initial[rows[1]])[known] / 2
+        (first, is_first), (second, is_second) = (rows_of(run.start.fields["id"], table[name]) for name in ("particle_a", "particle_b"))
+        known = is_first & is_second
+        place[known] = (run.start.initial[first] + run.start.initial[second])[known] / 2
     return Cracks(place, normal, table["area_m2"], mode == "tension", table["time_s"]).where(table["time_s"] <= time)
 
 
-class Density(NamedTuple):
+class Density(namedtuple("Density", "values is_share")):
     """values: rows from the bottom x columns from the axis (is_plane: from the plane x = 0) to the radius (m); broken over initial
     bonds of the cell (is_share), NaN where these are few, else broken ones a cubic metre."""
-
-    values: numpy.ndarray
-    is_share: bool
 
 
 def density(places, bonds, extent):
@@ -66,12 +54,12 @@ def density(places, bonds, extent):
         return numpy.bincount(row * columns + column, minlength=rows * columns).reshape(rows, columns)
 
     broken = count(places)
-    if bonds is None:
-        high, wide = extent.height / rows, extent.half_width / columns
-        ring = numpy.pi * wide**2 * (2 * numpy.arange(columns) + 1)
-        return Density(broken / (high * (4 * extent.half_depth * wide if extent.is_plane else ring)), False)
-    all_bonds = count(bonds)
-    return Density(numpy.divide(broken, all_bonds, out=numpy.full(broken.shape, numpy.nan), where=all_bonds >= FEWEST), True)
+    if bonds is not None:
+        of = count(bonds)
+        return Density(numpy.divide(broken, of, out=numpy.full(broken.shape, numpy.nan), where=of >= FEWEST), True)
+    wide = extent.half_width / columns
+    area = 4 * extent.half_depth * wide if extent.is_plane else numpy.pi * wide**2 * (2 * numpy.arange(columns) + 1)
+    return Density(broken / (extent.height / rows * area), False)
 
 
 def _density(run):
@@ -95,7 +83,7 @@ def edges(extent):
 
 
 def discs(axes, run, cracks, colours, title):
-    """The cracks of the half y < 0 as discs of their areas; colours: n x 3, or one for all. Returns the axes."""
+    """The cracks of the half y < 0 as discs of their areas; colours: n x 3, or one for all."""
     scene, shown = Scene(axes, run.extent, margin=0.06), cracks.place[:, 1] <= 0
     colours = numpy.broadcast_to(colours, cracks.place.shape)
     scene.spheres(cracks.place[shown], numpy.sqrt(cracks.area / numpy.pi)[shown], colours[shown], cracks.normal[shown])
@@ -103,7 +91,6 @@ def discs(axes, run, cracks, colours, title):
     for line in edges(run.extent):
         scene.line(line)
     axes.set_title(title)
-    return axes
 
 
 def modes(axes, run, tension):
@@ -119,11 +106,11 @@ def times(axes, run, before):
     cracks = cracks_until(run, run.pattern_time)
     over_peak = cracks.time / (run.peak_time or 1)
     norm = Normalize(over_peak.min(initial=1), over_peak.max(initial=1))
-    chosen, colours = (cracks.time < run.peak_time) == before, matplotlib.colormaps["viridis"]
+    chosen = (cracks.time < run.peak_time) == before
     title = f"{chosen.sum()} {'before' if before else 'after'} the peak (both halves)"
-    discs(axes, run, cracks.where(chosen), colours(norm(over_peak[chosen]))[:, :3], title)
+    discs(axes, run, cracks.where(chosen), VIRIDIS(norm(over_peak[chosen]))[:, :3], title)
     if not before:
-        colour_bar(axes, colours, norm, "Time over that of the peak")
+        colour_bar(axes, VIRIDIS, norm, "Time over that of the peak")
 
 
 def density_map(axes, run):
@@ -150,14 +137,16 @@ def rose(axes, run):
     """Area of cracks by the angle of their normals to the axis, over that of cracks that face all ways alike."""
     values, area = numpy.array(run.info["crack_rose"], float), run.table("cracks")["area_m2"]
     step, k = 90 / len(values), numpy.arange(len(values))
-    ends = {0: ", crack lies across", len(values) - 1: ", crack lies along"}
-    bars(axes, [f"{step * j:.0f} to {step * (j + 1):.0f}°{ends.get(j, '')}" for j in k], values, [f"{value:.2f}" for value in values],
-         "Area of cracks over that of cracks in random directions", "#777777", mark=1)
+    names = [f"{step * j:.0f} to {step * (j + 1):.0f}°" for j in k]
+    names[0] += ", crack lies across"
+    names[-1] += ", crack lies along"
+    texts = [f"{value:.2f}" for value in values]
+    bars(axes, names, values, texts, "Area of cracks over that of cracks in random directions", "#777777", mark=1)
     if len(area):
         scatter = 2 * scatter_of_rose(area, len(values))
         low = numpy.maximum(1 - scatter, 0)
         axes.barh(k, 1 + scatter - low, 0.9, low, color=SKY, alpha=0.6, label="scatter of as many cracks in random directions")
-    legend(axes, above=True)
+    legend_above(axes)
 
 
 def pictures_of_cracks(run):
@@ -181,6 +170,5 @@ def pictures_of_cracks(run):
         pictures.append(chart(
             "crack_rose", "The angle between the normal of a crack and the axis of the specimen, all of the run. Beyond the line there are "
             "more cracks than if they faced all ways alike. At 90 degrees cracks run along the specimen: it splits. A bar that ends in the "
-            "blue band (two standard deviations) may differ from the line by chance.", partial(rose, run=run), heights=3, margin=1.9,
-            titles=True))
+            "blue band (two standard deviations) may differ from the line by chance.", rose, run=run, heights=3, margin=1.9, titles=True))
     return pictures

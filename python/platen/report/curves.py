@@ -1,15 +1,18 @@
-"""Curves of runs over strain and time: stress, broken bonds, volume, energies, a cell's pressure, acoustic events, and where the
-computing time went. Each function draws on one axes; `pictures_of_...` make the Pictures that the files of a run allow."""
+"""Curves of runs over strain and time: stress, broken bonds, volume, energies, a cell's pressure, stresses on the sides and their path,
+stages, acoustic events, and where the computing time went. Each function draws on one axes; `pictures_of_...` and `section_of_...` make
+the Pictures and Sections that the files of a run allow."""
 import math
+from collections import namedtuple
 from functools import partial
-from typing import NamedTuple
 
 import numpy
 
 from . import laboratory as measured
-from .house import BLACK, BLUE, CYCLE, GREEN, GREY, MM, MPA, MS, ORANGE, PURPLE, SKY, VERMILION, chart, legend_over, span
-from .run import STRAIN, number_in
-from .stages import draw_stress_path, has_stress_path
+from .house import BLACK, BLUE, CYCLE, GREEN, GREY, MM, MPA, MS, ORANGE, PALE, PURPLE, SKY, VERMILION
+from .house import above, bars, chart, digits, span, titled
+from .pages import Section, Table
+from .platens import has_further_sides, sides_of, stress_column, style
+from .run import STRAIN, STRESS, listed, number_in
 
 # Column, words, colour, line of the energies; the share of the work from which on a term stands in the first chart.
 MAIN = (("boundary_work_j", "work of the platens", BLACK, "-"), ("bond_energy_j", "elastic energy of bonds", BLUE, "-"),
@@ -19,25 +22,26 @@ SMALL = (("contact_energy_j", "elastic energy of contacts", SKY, "-"),
          ("body_energy_j", "elastic energy of platens, sleeve and machine", GREEN, "-"), ("kinetic_energy_j", "kinetic energy", BLUE, "--"))
 RESIDUAL = ("energy_residual_j", "residual", BLACK, "--")
 MAIN_SHARE, SMALL_SHARE = 0.01, 0.05
+_STAGE_COLOURS = (*CYCLE, "#882255", "#999933", "#332288")  # after ten they come again, dashed
+_ASKED = ("Axial", "Lateral", "Lateral x", "Lateral y", "Bottom", "Top", "Left", "Right", "Front", "Back")
 
 
 # ---- stress, broken bonds, volume
-def _peak_words(run):
-    if run.peak_stress == 0:
-        return "no stress"
-    reached = "no peak reached, largest" if run.peak_reached is False else "peak"
-    return f"{reached} {run.peak_stress * MPA:.4g} MPa at {run.strain[run.peak_row] * MM:.3g} mm/m"
+def _over_strain(axes, runs, columns, factor=1.0, since=False):
+    """Columns (name, words, colour, line) of the histories from the end of consolidation on, as far as they have them, over strain; since:
+    less what they were there. Of several runs a colour is a run."""
+    for k, run in enumerate(runs):
+        for column, words, colour, line in columns:
+            if run.has(column):
+                values = (run.since(column) if since else run.h[column]) * factor
+                axes.plot(run.strain[run.rows] * MM, values[run.rows], line, color=CYCLE[k % len(CYCLE)] if len(runs) > 1 else colour,
+                          label=words if len(runs) == 1 else None)
 
 
 def _strain_label(runs):
     consolidated = [run.zero > 0 for run in runs]
     origin = " from the end of consolidation" * any(consolidated) + ", where there is one" * (any(consolidated) and not all(consolidated))
     return f"Strain{origin} (mm/m), compression positive"
-
-
-def _plot(axes, run, column, y, line, **more):
-    """y over a column of strains, from the end of consolidation on."""
-    axes.plot(run.since(column)[run.rows] * MM, y[run.rows], line, **more)
 
 
 def stress(axes, runs):
@@ -47,36 +51,32 @@ def stress(axes, runs):
     for k, run in enumerate(runs):
         colour, y = CYCLE[k % len(CYCLE)], run.stress * MPA
         along = run.name if several else "axial" if run.axis == 2 else f"along {'xyz'[run.axis]}"
-        _plot(axes, run, STRAIN[run.axis], y, "-", color=colour, label=f"{along}, between platens: {_peak_words(run)}", lw=1.8)
-        axes.plot(run.strain[run.peak_row] * MM, run.peak_stress * MPA, "o", color=colour)
-        furthest = max(furthest, float(numpy.nanmax(run.strain[run.rows])) * MM)
+        peak = "no peak reached, largest" if run.peak_reached is False else "peak"
+        peak += f" {run.peak_stress * MPA:.4g} MPa at {run.strain[run.peak_row] * MM:.3g} mm/m"
+        kinds = [(STRAIN[run.axis], f"{along}, between platens: {peak if run.peak_stress else 'no stress'}", colour, "-", 1.8)]
         if run.axis == 2:  # the gauge measures along z
-            others = (("axial_strain_gauge", "axial, gauge (middle half)", VERMILION, "--"),
-                      ("lateral_strain", "lateral, gauge", GREEN, "-"))
-        else:
-            others = [] if several else [(STRAIN[axis], f"along {'xyz'[axis]}, between platens", GREEN if axis == 2 else VERMILION, "-")
-                                         for axis in range(3) if axis != run.axis]
-        for column, words, other, line in others:
+            kinds += [("axial_strain_gauge", "axial, gauge (middle half)", VERMILION, "--", 1.2),
+                      ("lateral_strain", "lateral, gauge", GREEN, "-", 1.2)]
+        elif not several:
+            kinds += [(STRAIN[axis], f"along {'xyz'[axis]}, between platens", GREEN if axis == 2 else VERMILION, "-", 1.2)
+                      for axis in range(3) if axis != run.axis]
+        for n, (column, words, own, line, width) in enumerate(kinds):
             if run.has(column):
-                _plot(axes, run, column, y, line, color=colour if several else other, label=None if several else words, lw=1.2)
+                axes.plot(run.since(column)[run.rows] * MM, y[run.rows], line, color=colour if several else own, lw=width,
+                          label=words if n == 0 or not several else None)
+            if n == 0:
+                axes.plot(run.strain[run.peak_row] * MM, y[run.peak_row], "o", color=colour)
+        furthest = max(furthest, float(numpy.nanmax(run.strain[run.rows])) * MM)
     if furthest > 0:  # what opens once it has failed is cut off
         low, high = axes.get_xlim()
         axes.set_xlim(max(low, -1.2 * furthest), min(high, 1.5 * furthest))
-    axes.set(xlabel=_strain_label(runs), ylabel=runs[0].stress_title)
-    legend_over(axes)
+    titled(axes, _strain_label(runs), runs[0].stress_title)
 
 
 def broken_bonds(axes, runs):
     """Bonds broken in tension and shear over strain."""
-    several = len(runs) > 1
-    for k, run in enumerate(runs):
-        for column, words, colour, line in (("broken_tension", "broken in tension", VERMILION, "-"),
-                                            ("broken_shear", "broken in shear", BLUE, "--")):
-            if run.has(column):
-                _plot(axes, run, STRAIN[run.axis], run.h[column], line, color=CYCLE[k % len(CYCLE)] if several else colour,
-                      label=None if several else words)
-    axes.set(xlabel=_strain_label(runs), ylabel="Broken bonds")
-    legend_over(axes, 2)
+    _over_strain(axes, runs, (("broken_tension", "broken in tension", VERMILION, "-"), ("broken_shear", "broken in shear", BLUE, "--")))
+    titled(axes, _strain_label(runs), "Broken bonds", 2)
 
 
 def volume(axes, runs):
@@ -84,19 +84,16 @@ def volume(axes, runs):
     for k, run in enumerate(runs):
         if run.has("volumetric_strain"):
             colour, y = CYCLE[k % len(CYCLE)] if len(runs) > 1 else GREEN, run.since("volumetric_strain") * MM
-            _plot(axes, run, STRAIN[run.axis], y, "-", color=colour)
+            axes.plot(run.strain[run.rows] * MM, y[run.rows], color=colour)
             axes.plot(run.strain[run.peak_row] * MM, y[run.peak_row], "o", color=colour)
     axes.set(xlabel=_strain_label(runs), ylabel="Volumetric\nstrain (mm/m)")
 
 
 def stress_strain(runs, name, caption):
     """The Picture of stress, broken bonds and volume under one another, as far as the histories have them."""
-    draws = [partial(stress, runs=runs)]
-    if any(run.has("broken_tension") or run.has("broken_shear") for run in runs):
-        draws.append(partial(broken_bonds, runs=runs))
-    if any(run.has("volumetric_strain") for run in runs):
-        draws.append(partial(volume, runs=runs))
-    return chart(name, caption, *draws, heights=[3.3 + 0.17 * len(runs), 1.7, 1.5][:len(draws)], shared=True, margin=0.8)
+    draws = [stress, *(draw for draw, columns in ((broken_bonds, ("broken_tension", "broken_shear")), (volume, ("volumetric_strain",)))
+                       if any(run.has(column) for run in runs for column in columns))]
+    return chart(name, caption, *draws, runs=runs, heights=[3.3 + 0.17 * len(runs), 1.7, 1.5][:len(draws)], shared=True, margin=0.8)
 
 
 # ---- energies
@@ -112,19 +109,8 @@ def energies(axes, run, main=True):
     """Over strain, where the work of the platens went; with main=False its small terms and the residual."""
     for column, words, colour, line in _terms(run, main):
         axes.plot(run.strain * MM, run.h[column], line, color=colour, label=words.format(law=run.entry("Effects/Bond") or "all laws"))
-    axes.set(xlabel=run.strain_title, ylabel="Energy (J)")
     axes.locator_params(axis="y", nbins=6)
-    legend_over(axes, 2)
-
-
-def _energies_pictures(run):
-    halves = [main for main in (True, False) if _terms(run, main)]
-    caption = "The energy balance: where the work of the platens went."
-    if False in halves:
-        caption += (" The lower chart has another scale: the small terms, and the residual, which is the error of the balance and should "
-                    "stay near zero.")
-    return [chart("energies", caption, *(partial(energies, run=run, main=main) for main in halves), heights=[3.4, 2.0][:len(halves)],
-                  shared=True, margin=0.85)] if halves else []
+    titled(axes, run.strain_title, "Energy (J)", 2)
 
 
 # ---- discs, bars, cells
@@ -134,34 +120,22 @@ def opening(axes, run):
     way = run.h["deflection_m" if bent else "opening_m"] * MM
     axes.plot(way, run.stress * MPA, color=BLUE, lw=1.8)
     axes.plot(way[run.peak_row], run.peak_stress * MPA, "o", color=BLUE, label=f"peak {run.peak_stress * MPA:.4g} MPa")
-    axes.set(xlabel="Deflection at mid-span (mm)" if bent else "Widening across the loaded diameter (mm)",
-             ylabel="Nominal flexural stress (MPa)" if bent else "Splitting stress (MPa)")
-    legend_over(axes)
-
-
-def has_cell(run):
-    """Whether a cell, a sleeve or a wall presses the sides, so that the history has a deviator."""
-    return run.has("deviator_pa", "confining_pressure_pa") and bool((run.h["confining_pressure_pa"] > 0).any())
+    titled(axes, "Deflection at mid-span (mm)" if bent else "Widening across the loaded diameter (mm)",
+           "Nominal flexural stress (MPa)" if bent else "Splitting stress (MPa)")
 
 
 def deviator(axes, run):
     """Deviator over strain."""
-    for column, words, colour, line in (("deviator_pa", "axial stress less the pressure of the cell", BLUE, "-"),
-                                        ("sleeve_deviator_pa", "carried by the ends of the sleeve", VERMILION, "--")):
-        if run.has(column):
-            _plot(axes, run, STRAIN[run.axis], run.h[column] * MPA, line, color=colour, label=words)
-    axes.set(xlabel=run.strain_title, ylabel="Deviator (MPa)")
-    legend_over(axes, 2)
+    _over_strain(axes, [run], (("deviator_pa", "axial stress less the pressure of the cell", BLUE, "-"),
+                               ("sleeve_deviator_pa", "carried by the ends of the sleeve", VERMILION, "--")), MPA)
+    titled(axes, run.strain_title, "Deviator (MPa)", 2)
 
 
 def confined_volume(axes, run):
     """Volumetric strains over strain: of the gauge, and of all that is within a sleeve."""
-    for column, words, colour, line in (("volumetric_strain", "gauge (middle half)", GREEN, "-"),
-                                        ("volumetric_strain_sleeve", "all within the sleeve", PURPLE, "--")):
-        if run.has(column):
-            _plot(axes, run, STRAIN[run.axis], run.since(column) * MM, line, color=colour, label=words)
-    axes.set(xlabel=run.strain_title, ylabel="Volumetric strain (mm/m)")
-    legend_over(axes, 2)
+    _over_strain(axes, [run], (("volumetric_strain", "gauge (middle half)", GREEN, "-"),
+                               ("volumetric_strain_sleeve", "all within the sleeve", PURPLE, "--")), MM, since=True)
+    titled(axes, run.strain_title, "Volumetric strain (mm/m)", 2)
 
 
 def cell_pressure(axes, run):
@@ -186,46 +160,210 @@ def pictures_of_curves(run, laboratory=None):
     pictures = [stress_strain([run], "stress_strain", caption + " Dots: the peak. The largest strains are cut off.")]
     if laboratory is not None:
         pictures.append(chart("laboratory", "Stress over strain of the run and of the laboratory. Dots: the peaks. The table above "
-                              "compares them.", partial(measured.against_laboratory, run=run, curve=laboratory), heights=3.6))
-    pictures += _energies_pictures(run)
+                              "compares them.", measured.against_laboratory, run=run, curve=laboratory, heights=3.6))
+    halves = [main for main in (True, False) if _terms(run, main)]
+    if halves:
+        caption = "The energy balance: where the work of the platens went."
+        if False in halves:
+            caption += (" The lower chart has another scale: the small terms, and the residual, which is the error of the balance and "
+                        "should stay near zero.")
+        pictures.append(chart("energies", caption, *(partial(energies, main=main) for main in halves), run=run,
+                              heights=[3.4, 2.0][:len(halves)], shared=True, margin=0.85))
     if run.has("opening_m") or run.has("deflection_m"):
         words = ("Nominal flexural stress over the deflection of the bar at mid-span." if run.has("deflection_m") else
                  "Splitting stress over the widening of the disc across the loaded diameter.")
-        pictures.append(chart("opening", words + " Dot: the peak.", partial(opening, run=run), heights=3.2))
-    if has_cell(run):
+        pictures.append(chart("opening", words + " Dot: the peak.", opening, run=run, heights=3.2))
+    if run.has("deviator_pa") and has_cell(run):
         pictures.append(chart("confinement", "Deviator and volume over strain, compression positive, and the pressure of the cell over "
-                              "time. Where the volume begins to grow, cracks open against the pressure.", partial(deviator, run=run),
-                              partial(confined_volume, run=run), partial(cell_pressure, run=run), heights=[2.8, 2.0, 1.5], titles=True))
+                              "time. Where the volume begins to grow, cracks open against the pressure.", deviator, confined_volume,
+                              cell_pressure, run=run, heights=[2.8, 2.0, 1.5], titles=True))
     if has_stress_path(run):
         pictures.append(chart("stress_path", "Stress path: mean stress and deviator of the stresses along x, y and z. A specimen whose "
                               "sides are free follows the dashed line. Stress on the sides leads the path away from it. Dot: the peak.",
-                              partial(draw_stress_path, runs=[run]), heights=3.4))
+                              draw_stress_path, runs=[run], heights=3.4))
     return pictures
 
 
+# ---- sides
+def has_cell(run):
+    """Whether a cell, a sleeve or a wall presses the sides."""
+    return run.has("confining_pressure_pa") and bool((run.h["confining_pressure_pa"] > 0).any())
+
+
+def has_stress_path(run):
+    """Whether anything presses the sides."""
+    return has_further_sides(run) or has_cell(run)
+
+
+def axis_stresses(run):
+    """Pa along x, y, z, 3 x rows: the mean of the platens there, else the pressure of a cell or wall, else 0."""
+    beside = run.h["confining_pressure_pa"] if run.has("confining_pressure_pa") else numpy.zeros(run.h.rows)
+    return numpy.array([0.5 * (run.h[low] + run.h[high]) if run.has(low, high) else beside for low, high in STRESS])
+
+
+def stress_path(run):
+    """(p, q) in Pa: p = (s1 + s2 + s3) / 3, q = sqrt(3 J2) of the stresses along the axes, taken for principal ones."""
+    x, y, z = axis_stresses(run)
+    return (x + y + z) / 3, numpy.sqrt(0.5 * ((x - y) ** 2 + (y - z) ** 2 + (z - x) ** 2))
+
+
+def draw_stress_path(axes, runs):
+    """q over p of those runs that have a path; dots at their peaks."""
+    reach = 0.0
+    for k, run in enumerate(runs):
+        if has_stress_path(run):
+            p, q = (MPA * one for one in stress_path(run))
+            axes.plot(p, q, color=CYCLE[k % len(CYCLE)], label=run.name if len(runs) > 1 else "path of the test")
+            axes.plot(p[run.peak_row], q[run.peak_row], "o", color=CYCLE[k % len(CYCLE)])
+            reach = max(reach, float(numpy.nanmax(numpy.minimum(p, q / 3))))
+    axes.plot([0, reach], [0, 3 * reach], ls="--", color=GREY, label="sides without stress: q = 3 p")
+    titled(axes, "Mean stress p = (s1 + s2 + s3) / 3 (MPa), compression positive", "Deviator q = sqrt(3 J2) (MPa)")
+
+
+def side_stresses(axes, run):
+    """A curve for each side over strain: a colour an axis, the high side dashed; dots at the peak."""
+    sides = sides_of(run)
+    for side in sides:
+        stress, look = run.h[stress_column(side)] * MPA, style(side)
+        covered = side in ("left", "right") and "front" in sides  # where both pairs bear the same
+        axes.plot(run.strain * MM, stress, label=side, lw=3.2 if covered else 1.4, **look)
+        if look["ls"] == "-":  # one of each pair
+            axes.plot(run.strain[run.peak_row] * MM, stress[run.peak_row], "o", color=look["color"])
+    titled(axes, run.strain_title, "Stress (MPa), compression positive", 6)
+
+
+def section_of_sides(run):
+    """The Section "Sides", with a row for each side: largest stress, stress at the peak, work of friction until the end; None where no
+    platens but the bottom and the top one press."""
+    if not has_further_sides(run):
+        return None
+    rows = []
+    for side in sides_of(run):
+        stress, work = run.h[stress_column(side)] * MPA, f"friction_work_{side}_j"
+        rows.append([side, digits(stress.max()), digits(stress[run.peak_row]), digits(run.h[work][-1]) if run.has(work) else "-"])
+    picture = chart("side_stresses", "Stress on each platen: its force over the face of the specimen. A colour is a pair of opposite "
+                    "platens. They differ only by the friction that the other platens take up. Dots: the peak.", side_stresses, run=run,
+                    heights=3.6)
+    return Section("Sides", [picture], [Table(["side", "largest stress (MPa)", "stress at the peak (MPa)", "work of friction (J)"], rows)])
+
+
+# ---- stages
+def stages_of(run):
+    """[(number, first, last), ...]: rows of the history of each stage, the first one the last of the stage before; [] where the
+    scene has none."""
+    if not run.has("stage"):
+        return []
+    stage = run.h["stage"]
+    starts = [0, *(numpy.flatnonzero(numpy.diff(stage)) + 1)]
+    return [(int(stage[start]), max(0, start - 1), end - 1) for start, end in zip(starts, [*starts[1:], len(stage)])]
+
+
+def stage_words(run, number):
+    """"Lateral pressure 4 MPa, Top stress 4 MPa", as the scene has it."""
+    asked = ((side, run.entry(f"Loading/Stage {number}/{side}")) for side in _ASKED)
+    return ", ".join(f"{side} {words}" for side, words in asked if words)
+
+
+def _across(run):
+    """(how it is measured, strain across the loaded axis, negative where the specimen widens): around it, of the gauge, or of the
+    platens there."""
+    if run.has("circumferential_strain"):
+        return "circumferential", -run.since("circumferential_strain")
+    if run.axis == 2:
+        return "lateral", run.since("lateral_strain")
+    return "lateral", numpy.mean([run.since(column) for axis, column in enumerate(STRAIN) if axis != run.axis and run.has(column)], 0)
+
+
+def _plot_stages(axes, run, x, y, widths=True, labels=False):
+    """Earlier stages are wider, so that a path is seen on which a later one comes back."""
+    found = stages_of(run)
+    for k, (number, first, last) in enumerate(found):
+        words = stage_words(run, number) if labels else ""
+        words = words if len(words) < 62 else words[:58] + "..."
+        wider = 1 - k / (len(found) - 1) if widths and len(found) > 1 else 0
+        axes.plot(x[first:last + 1], y[first:last + 1], "-" if k % 20 < 10 else "--", color=_STAGE_COLOURS[k % 10], lw=1.6 + 2.6 * wider,
+                  label=f"{number}: {words}".rstrip(": ") if labels else None)
+
+
+def stages_stress(axes, run):
+    """Stress over strain along the loaded axis, a colour for each stage."""
+    _plot_stages(axes, run, run.strain * MM, run.stress * MPA, labels=True)
+    titled(axes, run.strain_title, run.stress_title)
+
+
+def stages_across(axes, run):
+    """Deviator (or stress, where nothing presses the sides) over the strains along and across, which is to the left."""
+    stress, (how, across) = stress_path(run)[1] if has_stress_path(run) else run.stress, _across(run)
+    for strain in (run.strain, across):
+        _plot_stages(axes, run, strain * MM, stress * MPA)
+    furthest = float(numpy.nanmax(run.strain)) * MM
+    if furthest > 0 and how == "lateral":  # what opens once it has failed is cut off
+        axes.set_xlim(left=max(axes.get_xlim()[0], -1.2 * furthest))
+    way, along = "across" if how == "lateral" else "around", "the axis" if run.axis == 2 else "xyz"[run.axis]
+    axes.set(xlabel=f"Strain {way} (left) and along {along}{run.strain_origin} (mm/m), compression positive",
+             ylabel="Deviator q (MPa)" if has_stress_path(run) else run.stress_title)
+
+
+def stages_over_time(axes, run):
+    """Stresses over time, the number of each stage above."""
+    time, stresses, found, end = run.h["time_s"] * MS, axis_stresses(run) * MPA, stages_of(run), -1.0
+    for axis, pair in enumerate(("left and right platens", "front and back platens", "bottom and top platens")):
+        if has_further_sides(run) and axis != run.axis and run.has(*STRESS[axis]):
+            axes.plot(time, stresses[axis], "--", color=GREY if axis == (run.axis + 1) % 3 else BLACK, label=pair)
+    if has_stress_path(run) and not has_further_sides(run):
+        axes.plot(time, stresses[0], "--", color=GREY, label="pressure on the sides")
+    _plot_stages(axes, run, time, run.stress * MPA, widths=False)
+    for k, (number, first, last) in enumerate(found if len(found) > 1 else []):
+        if k % 2:
+            axes.axvspan(time[first], time[last], color=PALE, zorder=0)
+        middle = 0.5 * (time[first] + time[last])
+        if middle - end > 0.02 * time[-1]:  # numbers of short stages would cover each other
+            above(axes, middle, str(number))
+            end = middle
+    titled(axes, "Time (ms)", run.stress_title, 2)
+
+
+def table_of_stages(run):
+    """A row for each stage: what it asked, what ended it, and where."""
+    confined, stress, (how, across), q = has_stress_path(run), run.stress * MPA, _across(run), stress_path(run)[1] * MPA
+    said = {one.get("stage"): one for one in listed(run.info, "stages")}
+    header = ["stage", "asked", "until", "ended by", "at (ms)", "strain (mm/m)", f"{how} strain (mm/m)", "stress (MPa)",
+              "largest stress (MPa)"]
+    rows = []
+    for number, first, last in stages_of(run):
+        numbers = [run.h["time_s"][last] * MS, run.strain[last] * MM, across[last] * MM, stress[last], stress[first:last + 1].max()]
+        rows.append([str(number), stage_words(run, number) or "-", run.entry(f"Loading/Stage {number}/Until") or "-",
+                     said.get(number, {}).get("ended_by") or "-", *map(digits, numbers + [q[last]] * confined)])
+    return Table(header + ["deviator q (MPa)"] * confined, rows)
+
+
+def section_of_stages(run):
+    """The Section "Stages"; None where the scene has none."""
+    count, draws = len(stages_of(run)), [(stages_stress, 2.9), (stages_over_time, 2.2)]
+    if not count:
+        return None
+    around = run.has("circumferential_strain")
+    if has_stress_path(run) or around:
+        draws.insert(1, (stages_across, 2.8))
+    caption = "The test stage by stage."
+    if count > 1:
+        caption = ("The test stage by stage, a colour for each. A later stage is drawn narrower: where it comes back on the path of an "
+                   "earlier one, both are seen. The numbers over the lowest chart are those of the stages.")
+    if len(draws) > 2 and not around:
+        caption += " The largest lateral strains are cut off."
+    return Section("Stages", [chart("stages", caption, *(draw for draw, _ in draws), run=run, titles=True,
+                                    heights=[height + 0.17 * count * (draw is stages_stress) for draw, height in draws])],
+                   [table_of_stages(run)])
+
+
 # ---- acoustic events
-def magnitudes(run, before):
-    """Of the events that began before (or after) the peak, from the smallest on. Those without energy have none."""
-    time, found = run.events["time_s"], run.events["magnitude"]
-    return numpy.sort(found[numpy.isfinite(found) & ((time <= run.peak_time) == before)])
-
-
-class PowerLaw(NamedTuple):
+class PowerLaw(namedtuple("PowerLaw", "b error limit upper events above")):
     """Of events by magnitude: b with its standard error, the range from limit to upper, events in it and above it."""
-
-    b: float
-    error: float
-    limit: float
-    upper: float
-    events: float
-    above: float
 
     def count(self, magnitude):
         """Events of a magnitude or more; bounded above as Page 1968 has it."""
         beta = math.log(10) * self.b
-        if math.isinf(self.upper):
-            return self.events * numpy.exp(-beta * (magnitude - self.limit))
-        least = math.exp(-beta * (self.upper - self.limit))
+        least = math.exp(-beta * (self.upper - self.limit))  # 0 where nothing bounds them
         return self.above + self.events * (numpy.exp(-beta * (magnitude - self.limit)) - least) / (1 - least)
 
     @property
@@ -237,30 +375,30 @@ class PowerLaw(NamedTuple):
 def power_law(run, before):
     """(law, reason): the PowerLaw of the summary, or None and why there is none."""
     start = f"acoustic/b_{'before' if before else 'after'}"
-    law = PowerLaw(*(number_in(run.info, start + key) for key in ("", "_error", "_limit", "_upper", "_events", "_above")))
-    law = law._replace(upper=math.inf if math.isnan(law.upper) else law.upper, above=0 if math.isnan(law.above) else law.above)
-    if law.b > 0 and not math.isnan(law.error + law.limit + law.events):
-        return law, ""
-    acoustic = run.info.get("acoustic")
-    return None, (acoustic.get(start.partition("/")[2] + "_reason") or "") if isinstance(acoustic, dict) else ""
+    b, error, limit, upper, events, more = (number_in(run.info, start + key)
+                                            for key in ("", "_error", "_limit", "_upper", "_events", "_above"))
+    if b > 0 and not math.isnan(error + limit + events):
+        return PowerLaw(b, error, limit, math.inf if math.isnan(upper) else upper, events, 0 if math.isnan(more) else more), ""
+    told = run.info.get("acoustic")
+    return None, (told.get(start.partition("/")[2] + "_reason") or "") if isinstance(told, dict) else ""
 
 
 def acoustic(axes, run):
     """How many events have at least a magnitude, before and after the peak; black: the power laws of the summary."""
+    time, magnitude = run.events["time_s"], run.events["magnitude"]  # those without energy have none
     for before, when, colour, line in ((True, "before the peak", BLUE, "-"), (False, "after the peak", VERMILION, "--")):
-        sizes, law = magnitudes(run, before), power_law(run, before)[0]
+        sizes, law = numpy.sort(magnitude[numpy.isfinite(magnitude) & ((time <= run.peak_time) == before)]), power_law(run, before)[0]
         if not len(sizes):
             continue
-        axes.plot(sizes, numpy.arange(len(sizes), 0, -1), color=colour,
-                  label=f"{len(sizes)} events {when}" + ": no b-value" * (law is None))
+        words = f"{len(sizes)} events {when}" + ": no b-value" * (law is None)
+        axes.plot(sizes, numpy.arange(len(sizes), 0, -1), color=colour, label=words)
         if law is not None:
             m = numpy.linspace(law.limit, law.end, 61)
             m = m[law.count(m) > 0.999]  # a bounded law falls to nothing at its end
             upper = "on" if math.isinf(law.upper) else f"to {law.upper:.1f}"
             axes.plot(m, law.count(m), line, color=BLACK, lw=1.1,
                       label=f"b = {law.b:.2f} +- {law.error:.2f} {when}, M from {law.limit:.1f} {upper}: {law.events:.0f} events")
-    axes.set(xlabel="Magnitude M", ylabel="Events of magnitude M or more", yscale="log")
-    legend_over(axes)
+    titled(axes, "Magnitude M", "Events of magnitude M or more", yscale="log")
 
 
 def pictures_of_events(run):
@@ -272,13 +410,12 @@ def pictures_of_events(run):
     for before, words in ((True, "before"), (False, "after")):
         if reason := power_law(run, before)[1]:
             caption += f" No b-value {words} the peak: {reason}."
-    return [chart("acoustic", caption, partial(acoustic, run=run), heights=3.4)]
+    return [chart("acoustic", caption, acoustic, run=run, heights=3.4)]
 
 
 # ---- computing time
 def costs_of(run):
-    """[(name, seconds, whether it is a part of the time steps), ...]: the largest first, the rest last; [] of a run that has not
-    ended."""
+    """[(name, seconds, whether it is a part of the time steps), ...]: the largest first, the rest last; [] of a run that has not ended."""
     parts = run.info.get("stage_seconds")
     if not isinstance(parts, dict):
         return []
@@ -302,22 +439,15 @@ def machine_words(run):
 
 def costs(axes, run):
     """Seconds of each part as bars."""
-    found = costs_of(run)
-    whole = sum(cost[1] for cost in found)
-    axes.barh(range(len(found)), [cost[1] for cost in found], 0.7, color=[BLUE if cost[2] else GREY for cost in found])
-    for k, (_, seconds, _) in enumerate(found):
-        axes.annotate(f"{seconds:.3g} s   {100 * seconds / whole:.1f} %", (seconds, k), (5, 0), textcoords="offset points", va="center",
-                      fontsize=8)
-    axes.set(xlabel=f"Wall clock (s), {whole:.4g} s together", xlim=(0, 1.25 * max(cost[1] for cost in found)))
-    axes.set_yticks(range(len(found)), [cost[0] for cost in found])
-    axes.invert_yaxis()
-    axes.grid(False, axis="y")
+    names, seconds, of_steps = zip(*costs_of(run))
+    whole = sum(seconds)
+    bars(axes, names, seconds, [f"{one:.3g} s   {100 * one / whole:.1f} %" for one in seconds], f"Wall clock (s), {whole:.4g} s together",
+         [BLUE if part else GREY for part in of_steps])
+    axes.set_xlim(0, 1.25 * max(seconds))
 
 
 def pictures_of_costs(run):
     """The Pictures of the section "Computing time"; none where the summary does not say it."""
-    if not costs_of(run):
-        return []
-    words = machine_words(run)
+    count, words = len(costs_of(run)), machine_words(run)
     caption = "Where the computing time went. Blue: parts of the time steps; grey: what is not." + f" {words}." * bool(words)
-    return [chart("seconds", caption, partial(costs, run=run), heights=0.4 + 0.26 * len(costs_of(run)), margin=1.2)]
+    return [chart("seconds", caption, costs, run=run, heights=0.4 + 0.26 * count, margin=1.2)] if count else []

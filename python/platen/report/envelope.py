@@ -1,34 +1,20 @@
 """Failure under pressure: the line through strengths, Mohr's circles, what codes and laboratories give. Stresses in MPa."""
 import math
-from typing import NamedTuple
+from collections import namedtuple
 
 import numpy
 
-from .house import BLACK, BLUE, CYCLE, GREEN, VERMILION, legend_over
+from .house import BLACK, BLUE, CYCLE, GREEN, VERMILION, titled
 
 LEAST_MISS = 0.05  # of the strength: a line that misses it by more is shown beside a curve
 
 
-class Line(NamedTuple):
-    """s1 = q + k s3 by least squares, the same as Mohr-Coulomb (sin phi = (k - 1) / (k + 1), c = q / (2 sqrt(k))), and as Hoek
-    and Brown's curve s1 = s3 + sc sqrt(m s3 / sc + 1). Errors are standard errors, NaN of two points; error: of a strength about
-    the line. NaN: c and phi where k < 1 or q < 0; all where there are not two pressures; sc and m where there are not three."""
-
-    count: int  # points
-    low: float  # the pressures that it is fitted over, MPa
-    high: float
-    q: float  # MPa
-    k: float
-    error: float  # MPa
-    q_error: float
-    k_error: float
-    cohesion: float  # MPa
-    phi: float  # degrees
-    cohesion_error: float
-    phi_error: float
-    residual: float  # largest distance of the mean strength at a pressure from the line, over that strength
-    sc: float  # MPa
-    m: float
+class Line(namedtuple("Line", "count low high q k error q_error k_error cohesion phi cohesion_error phi_error residual sc m")):
+    """s1 = q + k s3 by least squares through `count` points over pressures from low to high, the same as Mohr-Coulomb (sin phi =
+    (k - 1) / (k + 1), c = q / (2 sqrt(k)); phi in degrees), and as Hoek and Brown's curve s1 = s3 + sc sqrt(m s3 / sc + 1). Errors are
+    standard errors, NaN of two points; error: of a strength about the line; residual: largest distance of the mean strength at a
+    pressure from the line, over that strength. NaN: c and phi where k < 1 or q < 0; all where there are not two pressures; sc and m
+    where there are not three."""
 
     @property
     def misses(self):
@@ -44,8 +30,12 @@ class Line(NamedTuple):
 
     @property
     def range_words(self):
-        found = f"fitted from {self.low:.3g} to {self.high:.3g} MPa"
-        return found + (f", standard error {self.error:.2g} MPa" if math.isfinite(self.error) else ", two points: no standard error")
+        error = f"standard error {self.error:.2g} MPa" if math.isfinite(self.error) else "two points: no standard error"
+        return f"fitted from {self.low:.3g} to {self.high:.3g} MPa, {error}"
+
+    @property
+    def curve_words(self):
+        return f"Hoek and Brown: sc = {self.sc:.1f} MPa, m = {self.m:.1f}"
 
 
 def fit_line(pressure, strength):
@@ -73,9 +63,12 @@ def fit_line(pressure, strength):
         start = ((s - p) ** 2).mean() - slope * p.mean()
         if start > 0 and slope > 0:
             sc, m = math.sqrt(start), slope / math.sqrt(start)
-    residual = float(numpy.abs((q + k * levels - means) / means).max())
-    return Line(n, float(p.min()), float(p.max()), float(q), float(k), error, q_error, k_error, float(cohesion), phi, cohesion_error,
-                phi_error, residual, sc, m)
+    residual = numpy.abs((q + k * levels - means) / means).max()
+    found = p.min(), p.max(), q, k, error, q_error, k_error, cohesion, phi, cohesion_error, phi_error, residual, sc, m
+    return Line(n, *map(float, found))
+
+
+NO_LINE = fit_line([], [])
 
 
 def strength_en_1998_3(unconfined, pressure):
@@ -88,49 +81,46 @@ def strength_richart(unconfined, pressure):
     return unconfined + 4.1 * pressure
 
 
-def strength_over_pressure(axes, points, line=None):
+def strength_over_pressure(axes, points, line=NO_LINE):
     """Strengths over pressure. points: (pressure, strength) or (pressure, strength, low, high), by pressure; line: a Line."""
     for k, (pressure, strength, *ends) in enumerate(points):
         bar = [[strength - ends[0]], [ends[1] - strength]] if ends and ends[0] < ends[1] else None
         axes.errorbar(pressure, strength, bar, fmt="o", color=BLUE, capsize=3, label="strength" if k == 0 else None)
-    end, unconfined = 1.05 * max(point[0] for point in points), points[0][1] if points[0][0] == 0 else math.nan
-    p = numpy.linspace(0, end, 60)
-    if line is not None and math.isfinite(line.k):
-        inside = numpy.linspace(line.low, line.high, 60)
+    end = 1.05 * max(point[0] for point in points)
+    p, inside = numpy.linspace(0, end, 60), numpy.linspace(line.low, line.high, 60)
+    if math.isfinite(line.k):
         axes.plot(inside, line.at(inside), color=BLACK, ls="--", label=f"{line.q:.1f} + {line.k:.2f} s3, {line.range_words}")
-        if line.misses:
-            axes.plot(inside, line.curve(inside), color=BLACK, label=f"Hoek and Brown: sc = {line.sc:.1f} MPa, m = {line.m:.1f}")
-    if math.isfinite(unconfined):
-        axes.plot(p, strength_en_1998_3(unconfined, p), color=VERMILION, label="EN 1998-3")
-        axes.plot(p, strength_richart(unconfined, p), color=GREEN, ls="--", label="Richart 1928: + 4.1 s3")
-    axes.set(xlabel="Pressure on the sides, s3 (MPa)", ylabel="Axial stress at failure, s1 (MPa)", xlim=(-0.03 * end, end))
-    legend_over(axes)
+    if line.misses:
+        axes.plot(inside, line.curve(inside), color=BLACK, label=line.curve_words)
+    if points[0][0] == 0:
+        axes.plot(p, strength_en_1998_3(points[0][1], p), color=VERMILION, label="EN 1998-3")
+        axes.plot(p, strength_richart(points[0][1], p), color=GREEN, ls="--", label="Richart 1928: + 4.1 s3")
+    titled(axes, "Pressure on the sides, s3 (MPa)", "Axial stress at failure, s1 (MPa)", xlim=(-0.03 * end, end))
 
 
-def mohr(axes, points, line=None):
+def mohr(axes, points, line=NO_LINE):
     """Mohr's circles at failure, one unit as long on both axes, with the line as a tangent and, where it misses, the curved
     envelope. points, line: as in strength_over_pressure; circles are of the mean strengths."""
-    most = max(point[1] for point in points)
-    radius, angle = max(0.5 * (point[1] - point[0]) for point in points), numpy.linspace(0, math.pi, 91)
+    most, radius = max(point[1] for point in points), max(0.5 * (point[1] - point[0]) for point in points)
+    angle = numpy.linspace(0, math.pi, 91)
     for k, (s3, s1, *_) in enumerate(points):
         r = 0.5 * (s1 - s3)
         axes.plot(s3 + r - r * numpy.cos(angle), r * numpy.sin(angle), color=CYCLE[k % len(CYCLE)], label=f"{s3:.3g} MPa on the sides")
-    if line is not None and math.isfinite(line.cohesion):
+    if math.isfinite(line.cohesion):
         slope = math.tan(math.radians(line.phi))
         touch = 0.5 * (line.high + line.at(line.high)) - 0.5 * (line.at(line.high) - line.high) * math.sin(math.radians(line.phi))
         found = (f" +- {line.cohesion_error:.2g}", f" +- {line.phi_error:.2g}") if line.count > 2 else ("", "")
         axes.plot([0, 1.3 * touch], [line.cohesion, line.cohesion + 1.3 * slope * touch], color=BLACK, ls="--",
                   label=f"c = {line.cohesion:.1f}{found[0]} MPa, phi = {line.phi:.1f}{found[1]} degrees, {line.range_words}")
         radius = max(radius, line.cohesion + 1.3 * slope * touch)
-    if line is not None and line.misses:  # Balmer: normal and shear stress where the circle of s3 touches the envelope
+    if line.misses:  # Balmer: normal and shear stress where the circle of s3 touches the envelope
         s3 = numpy.linspace(line.low, line.high, 60)
         s1, rise = line.curve(s3), 1 + line.m / (2 * numpy.sqrt(line.m * s3 / line.sc + 1))
         axes.plot(0.5 * (s1 + s3) - 0.5 * (s1 - s3) * (rise - 1) / (rise + 1), (s1 - s3) * numpy.sqrt(rise) / (rise + 1), color=BLACK,
-                  label=f"Hoek and Brown: sc = {line.sc:.1f} MPa, m = {line.m:.1f}")
+                  label=line.curve_words)
     box = axes.get_position()
     across, up = box.width * axes.figure.get_figwidth(), box.height * axes.figure.get_figheight()
-    axes.set(xlabel="Normal stress (MPa), compression positive", ylabel="Shear stress (MPa)", ylim=(0, 1.02 * radius))
-    legend_over(axes)
+    titled(axes, "Normal stress (MPa), compression positive", "Shear stress (MPa)", ylim=(0, 1.02 * radius))
     axes.set_xlim(0, max(1.02 * most, axes.get_ylim()[1] * across / up))
     axes.set_ylim(0, axes.get_xlim()[1] * up / across)
     axes.set_aspect("equal")

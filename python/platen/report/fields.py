@@ -1,19 +1,16 @@
 """Stress, strain, displacement and damage through specimen and platens on one regular grid: a picture, and files for ParaView."""
 import math
-import os
 import struct
 import zlib
-from concurrent.futures import ProcessPoolExecutor
+from collections import namedtuple
 from functools import lru_cache, partial
-from multiprocessing import get_context
-from typing import NamedTuple
 
 import numpy
-from matplotlib import colormaps, colors
+from matplotlib.colors import Normalize
 
 from ..errors import InputError, OutputError
-from .house import MM, MPA, MS, Picture, colour_bar
-from .run import number_in
+from .house import MM, MPA, MS, VIRIDIS, Picture, colour_bar, over_cores, write_aside
+from .run import nearest, number_in, point_data, rows_of
 
 _REACH_IN_FILES, _REACH_IN_PICTURES, _FINENESS = 3.5, 5, 0.25  # of averages; of the nodes of pictures: mean radii
 OUTSIDE, SPECIMEN, PLATEN = 0, 1, 2  # `body` of a node
@@ -27,12 +24,8 @@ _PAIRS = 1_000_000  # of spheres and nodes at a time: limits the memory
 _NEARLY = 1e-6  # of an element's edge
 
 
-class Grid(NamedTuple):
-    """Regular nodes, x runs fastest. origin: the first one, m."""
-
-    origin: numpy.ndarray
-    spacing: float
-    nodes: numpy.ndarray  # numbers along x, y, z
+class Grid(namedtuple("Grid", "origin spacing nodes")):
+    """Regular nodes, x runs fastest. origin: the first one, m; spacing: m; nodes: numbers along x, y, z."""
 
     @property
     def places(self):
@@ -46,38 +39,15 @@ class Grid(NamedTuple):
                 numpy.floor((high - self.origin) / self.spacing).astype(int).clip(max=self.nodes - 1))
 
 
-class Fields(NamedTuple):
-    """A row a node; NaN where a node has no such number. Tension positive, tensors row by row."""
-
-    solid_share: numpy.ndarray  # n
-    stress: numpy.ndarray  # n x 9, Pa
-    damage: numpy.ndarray  # n
-    displacement: object  # n x 3, m; None where it was not asked for
-    strain: object  # n x 9; the same
-    body: numpy.ndarray  # n
-
-
-def point_data(grid, where, **widths):
-    """Arrays of a vtu.Grid by name; widths: numbers a point. InputError, of the file `where`, for one that is not there so."""
-    found = []
-    for name, width in widths.items():
-        array, shape = grid.point_data.get(name), (len(grid.points), width)[: 1 + (width > 1)]
-        if array is None and len(grid.points) == 0:
-            array = numpy.zeros(shape)
-        if array is None or array.shape != shape:
-            raise InputError(f"{where}: a frame has no point data {name!r} of {width} components")
-        found.append(array)
-    return found
-
-
-def nearest(frames, time):
-    """Number of the frame of a series nearest to a time."""
-    return int(numpy.abs(frames.times - time).argmin())
+class Fields(namedtuple("Fields", "solid_share stress damage displacement strain body")):
+    """A row a node; NaN where a node has no such number. Tension positive, tensors row by row. stress: n x 9, Pa; displacement: n x 3, m,
+    and strain: n x 9, both None where they were not asked for."""
 
 
 def near_peak(run, series):
     """In words for a caption: which frame of a series is shown."""
-    time = run.series(series).times[nearest(run.series(series), run.peak_time)]
+    times = run.series(series).times
+    time = times[nearest(times, run.peak_time)]
     return f"near the peak (frame at {time * MS:.3g} ms, peak at {run.peak_time * MS:.3g} ms)"
 
 
@@ -160,11 +130,9 @@ def with_contacts(spheres, contacts, packing_fraction, folder):
     force over the sphere's volume and its share of the voids."""
     stress, number, radius = point_data(spheres, folder / "specimen.pvd", stress=9, id=1, radius=1)
     normal, shear, size, particle = point_data(contacts, folder / "contacts.pvd", normal=3, shear=3, normal_force=1, particle=1)
-    order = numpy.argsort(number)
-    row = order[numpy.searchsorted(number, particle, sorter=order).clip(max=len(order) - 1)]
+    row, known = rows_of(number, particle)  # a frame of another time may have others
     arm, force = contacts.points - spheres.points[row], size[:, None] * normal + shear
     brought = 0.5 * (arm[:, :, None] * force[:, None, :] + arm[:, None, :] * force[:, :, None]).reshape(-1, 9)
-    known = number[row] == particle  # a frame of another time may have others
     stress = stress.copy()
     numpy.add.at(stress, row[known], (brought / (4 / 3 * math.pi * radius[row] ** 3 / packing_fraction)[:, None])[known])
     return stress
@@ -216,8 +184,8 @@ def in_hexahedra(grid, cells, where):
 def fields_at(run, time, grid, reach, whole=True):
     """Fields of the frame nearest to a time (s). reach: of the averages, m. whole: displacement and strain too. InputError where an
     array is missing."""
-    frames = run.series("specimen")
-    number = nearest(frames, time)
+    frames, platens = run.series("specimen"), run.series("platens")
+    number = nearest(frames.times, time)
     spheres, time = frames[number], float(frames.times[number])
     stress = with_contacts(spheres, run.series("contacts").at(time), number_in(run.info, "packing_fraction"), run.folder)
     radius, intact, broken, moved = point_data(spheres, frames.path, radius=1, intact_bonds=1, broken_bonds=1, displacement=3)
@@ -227,8 +195,7 @@ def fields_at(run, time, grid, reach, whole=True):
     damage, stress = means[:, 0], means[:, 1:][:, _FULL]
     body = numpy.where(share > _AT_SURFACE, SPECIMEN, OUTSIDE).astype(numpy.uint8)
     stress[body == OUTSIDE] = numpy.nan
-    platens = run.series("platens")
-    for platen in [] if platens is None else platens.parts(nearest(platens, time)):
+    for platen in platens.parts(nearest(platens.times, time)) if platens else []:
         nodes, points, weights = in_hexahedra(grid, platen, platens.path)
         body[nodes] = PLATEN
         there = platen.point_data.get("stress")  # rigid ones have none
@@ -241,26 +208,14 @@ def fields_at(run, time, grid, reach, whole=True):
 
 def has_stress(run):
     """Whether the run has what fields need: frames with stress, contacts, and the packing fraction."""
-    return (run.series("specimen") is not None and run.series("contacts") is not None and "stress" in run.start.fields
-            and math.isfinite(number_in(run.info, "packing_fraction")))
+    return (math.isfinite(number_in(run.info, "packing_fraction")) and bool(run.series("specimen") and run.series("contacts"))
+            and "stress" in run.start.fields)
 
 
 # ---- files
-def _grid_through(run):
-    """What holds specimen and platens before the test, a little more for what spreads; nodes a mean radius apart."""
-    extent, spacing = run.extent, float(run.start.radius.mean())
-    high = numpy.array([extent.half_width, extent.half_depth, extent.top])
-    low = numpy.array([-extent.half_width, -extent.half_depth, extent.bottom])
-    if run.series("platens") is not None:
-        points = run.series("platens")[0].points.astype(float)
-        low, high = numpy.minimum(low, points.min(0)), numpy.maximum(high, points.max(0))
-    return Grid(low - spacing, spacing, 3 + numpy.ceil((high - low) / spacing).astype(int))
-
-
 def _vti(grid, arrays):
     """Bytes of an image file of VTK, arrays by name: Float32, or UInt8; compressed, a block an array."""
-    extent = " ".join(f"0 {n - 1}" for n in grid.nodes)
-    head, data = [], b""
+    extent, head, data = " ".join(f"0 {n - 1}" for n in grid.nodes), [], b""
     for name, values in arrays.items():
         form, kind = ("u1", "UInt8") if values.dtype == numpy.uint8 else ("<f4", "Float32")
         raw, width = values.astype(form).tobytes(), values.shape[1] if values.ndim > 1 else 1
@@ -274,37 +229,33 @@ def _vti(grid, arrays):
             f'<AppendedData encoding="raw">\n_').encode() + data + b"\n</AppendedData>\n</VTKFile>\n"
 
 
-def _replace(path, data):
-    aside = path.with_name(path.name + ".new")
-    aside.write_bytes(data)
-    os.replace(aside, path)
-
-
-_OF = []  # in workers: run and grid
-
-
-def _write_frame(k, time):
-    """Of one frame; its line in the .pvd."""
-    run, grid = _OF
-    fields = fields_at(run, time, grid, _REACH_IN_FILES * grid.spacing)
-    name = f"frames/fields_{k:06d}.vti"
-    _replace(run.folder / name, _vti(grid, {of: getattr(fields, of) for of in
-                                            ("stress", "strain", "displacement", "damage", "solid_share", "body")}))
-    return f'    <DataSet timestep="{float(time)!r}" group="" part="0" file="{name}"/>\n'
-
-
 def write_fields(run):
     """Writes fields.pvd and frames/fields_*.vti into the run's folder, on one grid through platens and specimen with nodes a mean
     radius apart: `stress` (Pa, tension positive; in deformable platens too), `strain`, `displacement` (m), `damage`,
-    `solid_share`, and `body` (0 nothing, 1 specimen, 2 platen). NaN where a node has no such number. The run must have stress.
-    Returns the path of fields.pvd. InputError, OutputError."""
-    path, times = run.folder / "fields.pvd", run.series("specimen").times
+    `solid_share`, and `body` (0 nothing, 1 specimen, 2 platen). NaN where a node has no such number. Returns the path of fields.pvd.
+    InputError where its frames do not allow it, OutputError."""
+    if not has_stress(run):
+        raise InputError(f"{run.folder}: no fields can be made: they need specimen.pvd with stress, contacts.pvd and packing_fraction in "
+                         "summary.json")
+    # What holds specimen and platens before the test, a little more for what spreads.
+    spacing, points = float(run.start.radius.mean()), run.extent.corners
+    if run.series("platens"):
+        points = numpy.vstack([points, run.series("platens")[0].points.astype(float)])
+    low, high = points.min(0), points.max(0)
+    grid = Grid(low - spacing, spacing, 3 + numpy.ceil((high - low) / spacing).astype(int))
+    path, names = run.folder / "fields.pvd", ("stress", "strain", "displacement", "damage", "solid_share", "body")
+    files = {f"frames/fields_{k:06d}.vti": float(time) for k, time in enumerate(run.series("specimen").times)}
+
+    def write(file):
+        found = fields_at(run, files[file], grid, _REACH_IN_FILES * spacing)
+        write_aside(run.folder / file, _vti(grid, {name: getattr(found, name) for name in names}))
+
     try:
         (run.folder / "frames").mkdir(exist_ok=True)
-        with ProcessPoolExecutor(len(os.sched_getaffinity(0)), get_context("fork"), _OF.extend, ((run, _grid_through(run)),)) as pool:
-            entries = list(pool.map(_write_frame, range(len(times)), times))
-        _replace(path, ('<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">\n  <Collection>\n'
-                        + "".join(entries) + "  </Collection>\n</VTKFile>\n").encode())
+        list(over_cores(write, files))
+        lines = [f'    <DataSet timestep="{time!r}" group="" part="0" file="{name}"/>\n' for name, time in files.items()]
+        write_aside(path, ('<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">\n  <Collection>\n'
+                           + "".join(lines) + "  </Collection>\n</VTKFile>\n").encode())
     except OSError as error:
         raise OutputError(f"{error.filename or path}: cannot be written: {error.strerror}") from None
     return path
@@ -330,7 +281,7 @@ def stress_flow(axes, run, shear=False, beside=False):
     if shear:
         principal = numpy.linalg.eigvalsh(fields.stress[known].reshape(-1, 3, 3)) * MPA
         value[known] = 0.5 * (principal[:, 2] - principal[:, 0])
-    norm, ramp = colors.Normalize(*(numpy.percentile(value[known], (2, 98)) if known.any() else (0, 1))), colormaps["viridis"].copy()
+    norm, ramp = Normalize(*(numpy.percentile(value[known], (2, 98)) if known.any() else (0, 1))), VIRIDIS.copy()
     ramp.colorbar_extend = "both"
     image = ramp(norm(value), bytes=True)[:, :3]
     image[~known] = 255  # white

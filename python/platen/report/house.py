@@ -3,11 +3,15 @@
 A Picture is a grid of panels, each a function that draws on one axes. Nothing here changes matplotlib's settings for others.
 """
 import base64
+import gc
 import html
 import io
 import json
 import math
 import os
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
+from multiprocessing import get_context
 from typing import NamedTuple
 
 import matplotlib
@@ -15,23 +19,26 @@ import numpy
 from matplotlib import font_manager
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from PIL import Image, features
+from matplotlib.ticker import LogLocator, NullLocator
+from PIL import Image
 
 # Okabe and Ito's colours; one meaning each through a page where it can be.
 BLACK, BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, GREY = (
     "#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#999999")
+PALE = "#eeeeee"  # of stretches and bands behind curves
 CYCLE = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY, BLACK)
+VIRIDIS = matplotlib.colormaps["viridis"]
 MM, MPA, GPA, MS = 1e3, 1e-6, 1e-9, 1e3  # from SI to what axes and tables show
 MARKS = "osD^vP*X<>"  # of series that a laboratory or several studies have
 
 # Letters of Chinese, Japanese and Korean titles, where a font for them is installed.
 _FURTHER = [name for name in ("WenQuanYi Micro Hei", "Noto Sans CJK JP")
             if any(font.name == name for font in font_manager.fontManager.ttflist)]
-STYLE = {"font.family": ["DejaVu Sans", *_FURTHER], "font.size": 9, "axes.titlesize": 9, "axes.titley": 1.02, "axes.labelsize": 9, "legend.fontsize": 8,
-         "axes.grid": True, "grid.color": "#e1e1e1", "grid.linewidth": 0.6, "axes.axisbelow": True, "axes.spines.top": False,
-         "axes.spines.right": False, "legend.frameon": False, "lines.linewidth": 1.4, "lines.markersize": 4, "svg.fonttype": "none",
-         "svg.hashsalt": "platen", "axes.formatter.limits": (-4, 5), "axes.formatter.useoffset": False, "image.interpolation": "nearest",
-         "axes.prop_cycle": matplotlib.cycler(color=CYCLE), "path.simplify": True, "pdf.fonttype": 42}
+STYLE = {"font.family": ["DejaVu Sans", *_FURTHER], "font.size": 9, "axes.titlesize": 9, "axes.titley": 1.02, "axes.labelsize": 9,
+         "legend.fontsize": 8, "axes.grid": True, "grid.color": "#e1e1e1", "grid.linewidth": 0.6, "axes.axisbelow": True,
+         "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False, "lines.linewidth": 1.4, "lines.markersize": 4,
+         "svg.fonttype": "none", "svg.hashsalt": "platen", "axes.formatter.limits": (-4, 5), "axes.formatter.useoffset": False,
+         "image.interpolation": "nearest", "axes.prop_cycle": matplotlib.cycler(color=CYCLE), "path.simplify": True, "pdf.fonttype": 42}
 DPI = 120
 
 
@@ -61,31 +68,24 @@ class Picture(NamedTuple):
     margin: float = 0.72
 
 
-def chart(name, caption, *draws, heights=2.6, **more):
-    """A Picture of charts one over another."""
-    return Picture(name, caption, [[draw] for draw in draws], heights, **more)
-
-
-def images(name, caption, *draws, height=4.4, width=7.6, bar=True, **more):
-    """A Picture of images side by side."""
-    return Picture(name, caption, [list(draws)], height, width, raster=True, bar=bar, titles=True, margin=0.1, **more)
+def chart(name, caption, *draws, heights=2.6, width=7.6, shared=False, titles=False, margin=0.72, **of):
+    """A Picture of charts one over another; of: what each function draws, by the name of its argument."""
+    return Picture(name, caption, [[partial(draw, **of)] for draw in draws], heights, width, shared, titles=titles, margin=margin)
 
 
 def figure_of(picture):
     """The matplotlib Figure of a picture, drawn. Sizes in inches are laid out here: matplotlib's own layouts take most of the
     time of a page."""
-    rows = len(picture.rows)
-    heights = list(picture.heights) if isinstance(picture.heights, (list, tuple)) else [picture.heights] * rows
-    bottom, right, top = (0.5 if picture.margin > 0.3 else 0.12), (0.95 if picture.bar else 0.15), (0.3 if picture.titles else 0.12)
-    between = 0.14 if picture.shared else 0.55 + (0.3 if picture.titles else 0)
-    total = sum(heights) + bottom + top + between * (rows - 1)
+    heights, named = numpy.broadcast_to(picture.heights, len(picture.rows)).tolist(), picture.margin > 0.3
+    bottom, right, top = (0.5 if named else 0.12), (0.95 if picture.bar else 0.15), (0.3 if picture.titles else 0.12)
+    between, gap = 0.14 if picture.shared else 0.55 + (0.3 if picture.titles else 0), 0.72 if named else 0.12
+    total = sum(heights) + bottom + top + between * (len(heights) - 1)
     with matplotlib.rc_context(STYLE):
         figure = Figure(figsize=(picture.width, total))
         FigureCanvasAgg(figure)
         y, first = total - top, None
         for line, height in zip(picture.rows, heights):
             y -= height
-            gap = 0.72 if picture.margin > 0.3 else 0.12
             each = (picture.width - picture.margin - right - gap * (len(line) - 1)) / len(line)
             for k, draw in enumerate(line):
                 place = [(picture.margin + k * (each + gap)) / picture.width, y / total, each / picture.width, height / total]
@@ -99,23 +99,11 @@ def figure_of(picture):
     return figure
 
 
-def colour_bar(axes, colours, norm, label):
-    """A scale beside the axes: the last panel of a Picture with `bar`."""
-    scale = axes.inset_axes([1.03, 0.18, 0.045, 0.64]) if axes.get_aspect() == "auto" else axes.figure.add_axes(_beside(axes))
-    axes.figure.colorbar(matplotlib.cm.ScalarMappable(norm, colours), cax=scale, label=label)
-    scale.grid(False)
-    return scale
-
-
-def _beside(axes):
-    box, width = axes.get_position(), axes.figure.get_figwidth()
-    return [1 - 0.82 / width, box.y0 + 0.18 * box.height, 0.13 / width, 0.64 * box.height]
-
-
-def legend(axes, above=False, **more):
-    """A legend where anything has a label; above: over the axes, so that it covers no curve (a Picture with `titles` has room)."""
-    if axes.get_legend_handles_labels()[0]:
-        axes.legend(**{**({"loc": "lower left", "bbox_to_anchor": (-0.02, 1.0), "ncols": 4, "borderaxespad": 0.1} if above else {}), **more})
+# ---- what several charts have
+def titled(axes, x, y, columns=1, **more):
+    """Titles of both axes, further settings, and legend_over."""
+    axes.set(xlabel=x, ylabel=y, **more)
+    legend_over(axes, columns)
 
 
 def legend_over(axes, columns=1):
@@ -129,12 +117,65 @@ def legend_over(axes, columns=1):
         axes.legend(loc="upper left", ncols=columns, labelspacing=0.3, borderpad=0.1, borderaxespad=0.4)
 
 
+def legend_above(axes, **more):
+    """A legend over the axes, where anything has a label (a Picture with `titles` has room)."""
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(**{"loc": "lower left", "bbox_to_anchor": (-0.02, 1.0), "ncols": 4, "borderaxespad": 0.1, **more})
+
+
+def colour_bar(axes, colours, norm, label):
+    """A scale beside the axes: the last panel of a Picture with `bar`."""
+    if axes.get_aspect() == "auto":
+        scale = axes.inset_axes([1.03, 0.18, 0.045, 0.64])
+    else:
+        box, width = axes.get_position(), axes.figure.get_figwidth()
+        scale = axes.figure.add_axes([1 - 0.82 / width, box.y0 + 0.18 * box.height, 0.13 / width, 0.64 * box.height])
+    axes.figure.colorbar(matplotlib.cm.ScalarMappable(norm, colours), cax=scale, label=label)
+    scale.grid(False)
+
+
+def above(axes, x, words):
+    """Words over the axes."""
+    axes.annotate(words, (x, 1), xycoords=("data", "axes fraction"), ha="center", va="bottom", fontsize=8)
+
+
 def span(axes, start, end, words=""):
     """A grey stretch along x, with words at its top."""
-    axes.axvspan(start, end, color="#eeeeee", zorder=0)
-    axes.annotate(words, ((start + end) / 2, 1), xycoords=("data", "axes fraction"), ha="center", va="bottom", fontsize=8)
+    axes.axvspan(start, end, color=PALE, zorder=0)
+    above(axes, (start + end) / 2, words)
 
 
+def scatter_bars(axes, x, low, high, colour):
+    """Bars of scatter with ends; none where there is one number."""
+    x, low, high = (numpy.asarray(values, float) for values in (x, low, high))
+    some = high > low
+    axes.vlines(x[some], low[some], high[some], color=colour, lw=1.2)
+    axes.scatter(numpy.r_[x[some], x[some]], numpy.r_[low[some], high[some]], marker="_", color=colour, s=30)
+
+
+def bars(axes, names, values, texts, title, colours=BLUE, mark=None):
+    """Horizontal bars from above to below, with a text after each; a line at `mark`."""
+    axes.barh(range(len(values)), values, color=colours, height=0.62)
+    for k, (value, text) in enumerate(zip(values, texts)):
+        axes.annotate(text, (max(value, 0), k), (4, 0), textcoords="offset points", va="center", bbox={"fc": "w", "ec": "none", "pad": 1})
+    axes.set_yticks(range(len(values)), names)
+    axes.set_xlabel(title)
+    axes.invert_yaxis()
+    axes.grid(False, axis="y")
+    axes.margins(x=0.15)
+    if mark is not None:
+        axes.axvline(mark, color=BLACK)
+
+
+def plain_decades(axis):
+    """Ticks and plain numbers at 1, 2, 5 of a logarithmic axis, of about one decade at all digits."""
+    low, high = axis.get_view_interval()
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high > 12 * low else range(1, 10)))
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_locator(NullLocator())
+
+
+# ---- files
 def _hover(figure, name):
     """What the page's script needs to read values off a chart: boxes of axes in SVG's units, limits, labelled curves."""
     width, height = 72 * figure.get_figwidth(), 72 * figure.get_figheight()
@@ -145,7 +186,7 @@ def _hover(figure, name):
             if len(line.get_xdata()) > 1 and line.get_transform() == axes.transData:
                 line.set_gid(f"{name}-{k}-{n}")
                 label = line.get_label()
-                curves.append([f"{name}-{k}-{n}", "" if label.startswith("_") else label])
+                curves.append([line.get_gid(), "" if label.startswith("_") else label])
         if curves:
             box = axes.get_position()
             found.append({"box": [round(v, 2) for v in (box.x0 * width, (1 - box.y1) * height, box.x1 * width, (1 - box.y0) * height)],
@@ -154,23 +195,9 @@ def _hover(figure, name):
     return json.dumps(found)
 
 
-def _bytes(figure, form):
+def _bytes(save, form, **how):
     out = io.BytesIO()
-    with matplotlib.rc_context(STYLE):
-        figure.savefig(out, format=form, metadata={"svg": {"Date": None}, "pdf": {"CreationDate": None}}[form])
-    return out.getvalue()
-
-
-def _pixels(figure):
-    with matplotlib.rc_context(STYLE):
-        figure.set_dpi(DPI)
-        figure.canvas.draw()
-    return Image.fromarray(numpy.asarray(figure.canvas.buffer_rgba())).convert("RGB")
-
-
-def _encoded(image, form, **how):
-    out = io.BytesIO()
-    image.save(out, form, **how)
+    save(out, format=form, **how)
     return out.getvalue()
 
 
@@ -178,22 +205,23 @@ def save(picture, folder, forms=()):
     """Draws a picture into folder as PNG, and, where it is a chart, as what `forms` names (pdf, svg). Returns (files, what
     stands for it in a page): a chart as SVG, an image as WebP, a fifth as large as PNG."""
     figure = figure_of(picture)
-    pixels = _pixels(figure)
-    written = {"png": _encoded(pixels, "png", compress_level=1)}
-    if picture.raster:
-        form = "webp" if features.check("webp") else "png"
-        data = base64.b64encode(_encoded(pixels, form, quality=82, method=0) if form == "webp" else written["png"]).decode()
-        inside = f'<img alt="{html.escape(picture.caption)}" src="data:image/{form};base64,{data}">'
-    else:
-        hover = _hover(figure, picture.name)
-        svg = _bytes(figure, "svg")
-        written.update({form: svg if form == "svg" else _bytes(figure, form) for form in forms})
-        text = svg.decode()
-        inside = text[text.index("<svg"):].replace("<svg", f'<svg class="chart" data-axes="{html.escape(hover)}"', 1)
-    files = []
-    for form, data in written.items():
-        files.append(folder / f"{picture.name}.{form}")
-        write_aside(files[-1], data)
+    with matplotlib.rc_context(STYLE):
+        figure.set_dpi(DPI)
+        figure.canvas.draw()
+        image = Image.fromarray(numpy.asarray(figure.canvas.buffer_rgba())).convert("RGB")
+        written = {"png": _bytes(image.save, "png", compress_level=1)}
+        if picture.raster:
+            data = base64.b64encode(_bytes(image.save, "webp", quality=82, method=0)).decode()
+            inside = f'<img alt="{html.escape(picture.caption)}" src="data:image/webp;base64,{data}">'
+        else:
+            hover, dates = html.escape(_hover(figure, picture.name)), {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
+            made = {form: _bytes(figure.savefig, form, metadata=dates[form]) for form in dict.fromkeys(("svg", *forms))}
+            written.update((form, made[form]) for form in forms)
+            text = made["svg"].decode()
+            inside = text[text.index("<svg"):].replace("<svg", f'<svg class="chart" data-axes="{hover}"', 1)
+    files = [folder / f"{picture.name}.{form}" for form in written]
+    for file, data in zip(files, written.values()):
+        write_aside(file, data)
     return files, inside
 
 
@@ -206,3 +234,19 @@ def write_aside(path, data):
     except OSError:
         aside.unlink(missing_ok=True)
         raise
+
+
+_WORK = []  # what forked workers have: a function and its jobs
+
+
+def _work(k):
+    function, jobs = _WORK
+    return function(jobs[k])
+
+
+def over_cores(function, jobs):
+    """function(job) of each job, one after another, made over the cores. Workers are forked, so that they have what has been read."""
+    _WORK[:] = function, list(jobs)
+    count = len(_WORK[1])
+    with ProcessPoolExecutor(min(len(os.sched_getaffinity(0)), count) or 1, get_context("fork"), gc.disable) as pool:  # they end soon
+        yield from pool.map(_work, range(count))

@@ -7,13 +7,13 @@ import csv
 import math
 import re
 import unicodedata
+from collections import namedtuple
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy
 
 from ..errors import InputError, path_text
-from .house import BLACK, BLUE, GPA, MM, MPA, digits, legend_over
+from .house import BLACK, BLUE, GPA, MM, MPA, digits, titled
 from .pages import Table
 
 # Units that headers have, plain (see _plain), with their factors to SI: they tell what a column holds.
@@ -37,21 +37,19 @@ _HOW = ('Name them: --columns "strain=COLUMN,stress=COLUMN", by name or number f
 _POINTS, _ROWS_OF_HEAD = 500, 200
 
 
-class Curve(NamedTuple):
+class Curve(namedtuple("Curve", "strain stress remarks")):
     """strain, stress: arrays of one length, SI, compression positive. remarks: what was taken and changed, sentences."""
 
-    strain: numpy.ndarray
-    stress: numpy.ndarray
-    remarks: list
+
+class _Column(namedtuple("Column", "index what factor header")):  # what: a key of UNITS
+    @property
+    def score(self):
+        """How well its name fits what it holds, and the loaded axis."""
+        text = _plain(self.header)
+        return 2 * bool(re.search(_NAMES[self.what], text)) + bool(re.search(_ALONG, text))
 
 
-class _Column(NamedTuple):
-    index: int
-    what: str  # a key of UNITS
-    factor: float
-    header: str
-
-
+# ---- headers
 def _plain(text):
     """Small letters without superscripts, so that units of all typists are alike."""
     text = unicodedata.normalize("NFKC", text.replace("−", "-")).casefold().replace("μ", "u").replace("^", "").replace("**", "")
@@ -68,22 +66,16 @@ def unit_of(header):
         if inside in _OF_UNIT:
             return _OF_UNIT[inside]
     text = text.rstrip(" .:)]")
-    for unit in sorted(_OF_UNIT, key=len, reverse=True):
-        before = text[: -len(unit)]
-        if text.endswith(unit) and unit not in _ONLY_IN_BRACKETS and not (before and before[-1].isalnum() and unit[0].isalpha()):
+    for unit in sorted({*_OF_UNIT} - {*_ONLY_IN_BRACKETS}, key=len, reverse=True):
+        if text.endswith(unit) and not (text[: -len(unit)][-1:].isalnum() and unit[0].isalpha()):
             return _OF_UNIT[unit]
     return None
-
-
-def _score(column):
-    text = _plain(column.header)
-    return 2 * bool(re.search(_NAMES[column.what], text)) + bool(re.search(_ALONG, text))
 
 
 def _parse_columns(text):
     """{"x": (what, unit or None, column), "y": ...} of "strain=A,stress/kPa=B"."""
     asked = {}
-    for part in re.split(r",\s*(?=(?:strain|displacement|stress|load)(?:/[^=]*)?=)", text or "") if text else []:
+    for part in re.split(r",\s*(?=(?:strain|displacement|stress|load)(?:/[^=]*)?=)", text) if text else []:
         found = re.fullmatch(r"\s*(strain|displacement|stress|load)(?:/([^=]*))?=(.*\S)\s*", part)
         unit = _plain(found[2]) if found and found[2] else None
         if not found or (unit and unit not in UNITS[found[1]]):
@@ -93,14 +85,11 @@ def _parse_columns(text):
 
 
 def _asked_column(heads, what, unit, name):
-    if name.isdigit():
-        index = int(name) - 1
-    else:
-        fits = [(_plain(head) != _plain(name), k) for k, head in enumerate(heads) if _plain(head).startswith(_plain(name))]
-        index = min(fits)[1] if fits else -1
+    index = int(name) - 1 if name.isdigit() else min(((_plain(head) != _plain(name), k) for k, head in enumerate(heads)
+                                                      if _plain(head).startswith(_plain(name))), default=(0, -1))[1]
     head = heads[index] if 0 <= index < len(heads) else ""
     found = (what, UNITS[what][unit]) if unit else unit_of(head)
-    return _Column(index, what, found[1], head or name) if index >= 0 and found and found[0] == what else None
+    return _Column(index, *found, head or name) if index >= 0 and found and found[0] == what else None
 
 
 def _choose(heads, asked):
@@ -108,15 +97,15 @@ def _choose(heads, asked):
     known = [_Column(k, *unit, head) for k, head in enumerate(heads) if (unit := unit_of(head)) and not re.search(_OTHER, _plain(head))]
     chosen, others = [], []
     for axis, kinds in (("x", ("strain", "displacement")), ("y", ("stress", "load"))):
+        fits = sorted((c for c in known if c.what in kinds), key=lambda c: (-c.score, kinds.index(c.what), c.index))
         if axis in asked:
-            chosen.append(_asked_column(heads, *asked[axis]))
-            continue
-        fits = sorted((c for c in known if c.what in kinds), key=lambda c: (-_score(c), kinds.index(c.what), c.index))
+            fits = [_asked_column(heads, *asked[axis])]
         chosen.append(fits[0] if fits else None)
-        others += [c.header for c in fits[1:] if c.what == fits[0].what and _score(c) == _score(fits[0])]
+        others += [c.header for c in fits[1:] if c.what == fits[0].what and c.score == fits[0].score]
     return None if None in chosen else (*chosen, others)
 
 
+# ---- files
 def _number(cell, decimal):
     text = cell.replace("−", "-").translate({ord(c): None for c in " \u00a0\u202f'" + (",.".replace(decimal, ""))}).replace(",", ".")
     return float(text) if re.fullmatch(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", text) else math.nan
@@ -126,17 +115,13 @@ def _rows(path):
     """(rows of cells, decimal mark) of a file, its separator found by trial."""
     try:
         data = Path(path_text(path, "path")).read_bytes()
+        text = data.decode("utf-16" if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig")
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror}") from None
-    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
-        text = data.decode("utf-16", "replace")
-    else:
-        try:
-            text = data.decode("utf-8-sig")
-        except UnicodeDecodeError:
-            text = data.decode("cp1252", "replace")
+    except UnicodeDecodeError:
+        text = data.decode("cp1252", "replace")
     lines = [re.sub(r"^\s*(#|//|!|%\s+(?=\w))+\s*", "", line) for line in text.replace("\0", "").splitlines()]
-    best = None
+    tried = []
     for separator in "\t;,":
         some = list(csv.reader(lines[:_POINTS], delimiter=separator))
         cells = [cell.strip() for row in some for cell in row]
@@ -144,9 +129,9 @@ def _rows(path):
         decimal = "," if commas > dots else "."
         counts = [[not math.isnan(_number(cell, decimal)) for cell in row if cell.strip()] for row in some]
         worth = (sum(len(row) > 1 and all(row) for row in counts), sum(sum(row) > 1 for row in counts))
-        if best is None or worth > best[0]:
-            best = worth, separator, decimal
-    return list(csv.reader(lines, delimiter=best[1])), best[2]
+        tried.append((worth, separator, decimal))
+    _, separator, decimal = max(tried, key=lambda one: one[0])
+    return list(csv.reader(lines, delimiter=separator)), decimal
 
 
 def _with_units(cells):
@@ -173,9 +158,8 @@ def _find(path, asked, columns):
             found = _choose(heads, asked)
             if found is None:
                 continue
-            both = max(found[0].index, found[1].index)
-            data = numpy.array([[_number(row[found[n].index], decimal) for n in (0, 1)] for row in rows[first:] if len(row) > both])
-            data = data.reshape(-1, 2)
+            both = [column.index for column in found[:2]]
+            data = numpy.array([[_number(row[n], decimal) for n in both] for row in rows[first:] if len(row) > max(both)]).reshape(-1, 2)
             there = numpy.isfinite(data).all(1)
             if there.sum() > 2:
                 return (*found, data[there], int((~there[there.argmax():]).sum()))
@@ -188,17 +172,16 @@ def _find(path, asked, columns):
     raise InputError(f"{path}: {what}. Header found: {head}. {_HOW}")
 
 
-def _step(values, share):
-    """Below it a change is noise, or says nothing."""
-    changes = numpy.diff(values)
-    back = -changes[changes < 0]
-    least = share * abs(values[-1] - values[0])
-    return max(least, 3 * float(numpy.median(back))) if len(back) > 0.05 * len(values) else least
-
-
 def _thinned(strain, stress, peak):
-    """Means of rows that follow each other with changes below a step; the row of the peak stays by itself."""
-    steps = _step(strain[:peak + 1], 1 / _POINTS), _step(stress[:peak + 1], 5 / _POINTS)
+    """Means of rows that follow each other with changes below a step, and that of the strain; the row of the peak stays by itself."""
+
+    def step(values, share):  # below it a change is noise, or says nothing
+        changes = numpy.diff(values)
+        back = -changes[changes < 0]
+        least = share * abs(values[-1] - values[0])
+        return max(least, 3 * float(numpy.median(back))) if len(back) > 0.05 * len(values) else least
+
+    steps = step(strain[:peak + 1], 1 / _POINTS), step(stress[:peak + 1], 5 / _POINTS)
     x, y, starts = strain.tolist(), stress.tolist(), [0]
     for k in range(1, len(x)):
         start = starts[-1]
@@ -212,56 +195,63 @@ def read(path, columns=None, area=None, height=None):
     """The Curve of a laboratory's file: any header with units, comma, semicolon or tab between columns, decimal point or comma,
     lines before the header. columns: "strain=COLUMN,stress=COLUMN" where the header does not say them. area (m2), height (m) of
     the specimen: for load and displacement. InputError where columns cannot be found, or a size is wanted that is not given."""
-    asked, name = _parse_columns(columns), Path(path_text(path, "path")).name
-    x, y, others, data, without = _find(path, asked, columns)
-    strain, stress, taken = data[:, 0] * x.factor, data[:, 1] * y.factor, []
-    for column, size, words, unit in ((x, height, "height", 1e3), (y, area, "area", 1e6)):
-        said = f"{'strain' if column is x else 'stress'} from {column.header.strip()!r}"
+    x, y, others, data, without = _find(path, _parse_columns(columns), columns)
+    values, taken = [], []
+    for k, (column, size, words, unit) in enumerate(((x, height, "height", "{:.4g} mm"), (y, area, "area", "{:.4g} mm2"))):
+        values.append(data[:, k] * column.factor)
+        taken.append(f"{('strain', 'stress')[k]} from {column.header.strip()!r}")
         if column.what in ("displacement", "load"):
             if not size or not size > 0:
                 raise InputError(f"{path}: {column.header.strip()!r} is a {column.what}: it needs the {words} of the specimen, which the "
                                  "run does not say")
-            said += f" over the {words} of {size * unit:.4g} mm" + "2" * (column is y)
-        taken.append(said)
-    strain, stress = (strain / height if x.what == "displacement" else strain), (stress / area if y.what == "load" else stress)
-    remarks = [f"{name}: {' and '.join(taken)}"]
+            values[k] = values[k] / size
+            taken[k] += f" over the {words} of " + unit.format(size * 1e3 ** (k + 1))
+    strain, stress = values
+    said = [" and ".join(taken)]
     if x.what == "displacement":
-        remarks.append(f"{name}: a strain from displacements holds what the testing machine takes up, if it was measured there")
+        said.append("a strain from displacements holds what the testing machine takes up, if it was measured there")
     if others:
-        remarks.append(f"{name}: columns that would do as well: {', '.join(others)}")
+        said.append(f"columns that would do as well: {', '.join(others)}")
     if without:
-        remarks.append(f"{name}: rows left out because a number is missing: {without}")
+        said.append(f"rows left out because a number is missing: {without}")
     peak = int(numpy.abs(stress).argmax())
     if stress[peak] < 0:
         stress = -stress
-        remarks.append(f"{name}: compression is negative in the stress of the file: its sign is turned")
+        said.append("compression is negative in the stress of the file: its sign is turned")
     rise = strain[peak] - strain[0]
     if rise == 0:
         raise InputError(f"{path}: no strain between the first row and the largest stress")
     if abs(stress[0]) < 0.05 * stress[peak] and abs(strain[0]) > 0.01 * abs(rise):
-        remarks.append(f"{name}: strain counts from its first value, {strain[0] * MM:.4g} mm/m")
+        said.append(f"strain counts from its first value, {strain[0] * MM:.4g} mm/m")
         strain = strain - strain[0]
     if rise < 0:
         strain = -strain
-        remarks.append(f"{name}: compression is negative in the strain of the file: its sign is turned")
+        said.append("compression is negative in the strain of the file: its sign is turned")
     thin, mean, step = _thinned(strain, stress, peak)
     if len(thin) < len(strain):
-        remarks.append(f"{name}: {len(strain)} rows are thinned to {len(thin)}: rows of one strain, and of strains that differ by less "
-                       f"than {step * MM:.2g} mm/m, are their mean")
-    return Curve(thin, mean, remarks)
+        said.append(f"{len(strain)} rows are thinned to {len(thin)}: rows of one strain, and of strains that differ by less than "
+                    f"{step * MM:.2g} mm/m, are their mean")
+    return Curve(thin, mean, [f"{Path(path).name}: {text}" for text in said])
 
 
+def of_specimen(run, file, columns=None):
+    """The Curve of a file of a laboratory, over the size of the specimen of a TestRun."""
+    height = run.extent.height if run.series("specimen") else None
+    return read(file, columns, run.info.get("section", {}).get("area_m2"), height)
+
+
+# ---- beside a run
 def figures(strain, stress):
     """(E in Pa, strength in Pa, strain at the peak, stress in Pa at 1.5 times that strain) of a curve whose peak is positive. E:
     secant between 10 and 40 % of the peak. NaN where the curve does not have it."""
     peak = int(stress.argmax())
+    strength, at = stress[peak], strain[peak]
 
     def rises_to(level):
         k = int((stress >= level).argmax())
-        return math.nan if k == 0 else numpy.interp(level, stress[k - 1:k + 1], strain[k - 1:k + 1])
+        return numpy.interp(level, stress[k - 1:k + 1], strain[k - 1:k + 1]) if k else math.nan
 
-    strength, at, after = stress[peak], strain[peak], strain[peak:] >= 1.5 * strain[peak]
-    later = math.nan
+    after, later = strain[peak:] >= 1.5 * at, math.nan
     if after.any() and at > 0:
         k = peak + int(after.argmax())
         later = numpy.interp(1.5 * at, strain[k - 1:k + 1], stress[k - 1:k + 1])
@@ -271,19 +261,19 @@ def figures(strain, stress):
 
 def _of_run(run):
     """(sign, strain, stress) of a run from the end of consolidation on: the peak is positive after the sign."""
-    sign, strain, stress = -1 if run.peak_stress < 0 else 1, run.strain[run.rows], run.stress[run.rows]
+    strain, stress = run.strain[run.rows], run.stress[run.rows]
     there = numpy.isfinite(strain) & numpy.isfinite(stress)
-    return sign, strain[there], stress[there]
+    return -1 if run.peak_stress < 0 else 1, strain[there], stress[there]
 
 
 def differences(run, curve):
     """A pages.Table: figures of the run and of the laboratory by one rule, and their difference."""
     sign, strain, stress = _of_run(run)
-    ours, theirs = figures(sign * strain, sign * stress), figures(curve.strain, curve.stress)
     rows = []
-    titles = ("Young's modulus (GPa)", "strength (MPa)", "strain at the peak (mm/m)", "stress at 1.5 times the strain at the peak (MPa)")
-    for words, factor, a, b in zip(titles, (GPA, MPA, MM, MPA), ours, theirs):
-        no_peak = run.peak_reached is False and words != titles[0]
+    for words, factor, a, b in zip(("Young's modulus (GPa)", "strength (MPa)", "strain at the peak (mm/m)",
+                                    "stress at 1.5 times the strain at the peak (MPa)"), (GPA, MPA, MM, MPA),
+                                   figures(sign * strain, sign * stress), figures(curve.strain, curve.stress)):
+        no_peak = run.peak_reached is False and factor != GPA
         rows.append([words, "no peak reached" if no_peak else digits(a * factor), digits(b * factor),
                      "-" if no_peak or not b else digits(100 * (a - b) / b)])
     return Table(["figure", run.name, "laboratory", "difference (%)"], rows, "The run beside the laboratory",
@@ -295,13 +285,12 @@ def against_laboratory(axes, run, curve):
     """Stress over strain of a run and of a laboratory's Curve; dots at the peaks."""
     sign, strain, stress = _of_run(run)
     furthest = 0.0
-    for x, y, colour, line, words in ((strain, stress, BLUE, "-", f"{run.name}, between platens"),
-                                      (sign * curve.strain, sign * curve.stress, BLACK, "-", "laboratory")):
+    for x, y, colour, width, words in ((strain, stress, BLUE, 1.8, f"{run.name}, between platens"),
+                                       (sign * curve.strain, sign * curve.stress, BLACK, 1.2, "laboratory")):
         peak = int((sign * y).argmax())
-        axes.plot(x * MM, y * MPA, line, color=colour, label=words, lw=1.8 if colour == BLUE else 1.2)
+        axes.plot(x * MM, y * MPA, color=colour, label=words, lw=width)
         axes.plot(x[peak] * MM, y[peak] * MPA, "o", color=colour)
         furthest = max(furthest, 3 * abs(x[peak]), abs(strain).max())
     low, high = axes.get_xlim()
     axes.set_xlim(max(low, -1.05 * MM * furthest), min(high, 1.05 * MM * furthest))
-    axes.set(xlabel=run.strain_title, ylabel=run.stress_title)
-    legend_over(axes)
+    titled(axes, run.strain_title, run.stress_title)

@@ -1,11 +1,8 @@
 """A page: a title, what leads, tables, pictures under headings; one HTML file that needs no other file and no network."""
-import gc
 import html
 import itertools
-import os
 import textwrap
-from concurrent.futures import ProcessPoolExecutor
-from multiprocessing import get_context
+from collections import namedtuple
 from pathlib import Path
 from typing import NamedTuple
 
@@ -26,7 +23,7 @@ class Table(NamedTuple):
     def text(self, width=100):
         """In columns, one line a row; texts of the last column that are too long for `width` are broken."""
         lines = [[str(cell) for cell in line] for line in (self.header, *self.rows)]
-        widths = [max(len(line[k]) for line in lines) for k in range(len(self.header))]
+        widths = [max(map(len, column)) for column in zip(*lines)]
         wide = [k for k in range(1, len(widths)) if sum(widths) + 2 * len(widths) > width and widths[k] > 30]
         for k in wide:  # these share what the others leave, and their texts are broken
             rest = sum(w for j, w in enumerate(widths) if j not in wide) + 2 * len(widths)
@@ -35,20 +32,18 @@ class Table(NamedTuple):
         for n, line in enumerate(lines):
             cells = [textwrap.wrap(cell, w) or [""] if k in wide else [cell] for k, (cell, w) in enumerate(zip(line, widths))]
             for row in itertools.zip_longest(*cells, fillvalue=""):
-                out.append("  ".join(f"{cell:<{w}}" if k == 0 or k in wide else f"{cell:>{w}}"
+                out.append("  ".join(f"{cell:{'<' if k == 0 or k in wide else '>'}{w}}"
                                      for k, (cell, w) in enumerate(zip(row, widths))).rstrip())
             if n == 0:
                 out.append("-" * (sum(widths) + 2 * (len(widths) - 1)))
         return "\n".join([*out, *textwrap.wrap(self.note, width)])
 
     def html(self):
-        def is_text(k):
-            return any(len(cell) > 16 and any(map(str.isalpha, cell)) for cell in (str(row[k]) for row in self.rows))
-
-        text = [' class="text"' if is_text(k) else "" for k in range(len(self.header))]
+        columns = [[str(cell) for cell in column] for column in zip(*self.rows)] or [[] for _ in self.header]
+        how = [' class="text"' * any(len(cell) > 16 and any(map(str.isalpha, cell)) for cell in column) for column in columns]
 
         def row(cells, kind):
-            return "<tr>" + "".join(f"<{kind}{how}>{html.escape(str(cell))}</{kind}>" for cell, how in zip(cells, text)) + "</tr>"
+            return "<tr>" + "".join(f"<{kind}{of}>{html.escape(str(cell))}</{kind}>" for cell, of in zip(cells, how)) + "</tr>"
 
         caption = f"<caption>{html.escape(self.title)}</caption>" if self.title else ""
         note = f'<p class="note">{html.escape(self.note)}</p>' if self.note else ""
@@ -57,99 +52,70 @@ class Table(NamedTuple):
 
 
 class Section(NamedTuple):
-    """heading: "" for none. tables stand before element (HTML of its own, or a function that returns it), this before the
-    pictures."""
+    """heading: "" for none. tables stand before element (a function that returns HTML of its own), this before the pictures."""
 
     heading: str
     pictures: list
     tables: list = []
-    element: object = ""
+    element: object = None
 
     @property
     def anchor(self):
         return self.heading.replace(" ", "-")
 
 
-class Page(NamedTuple):
-    """leads: sentences, each a paragraph; head: tables that follow them; remarks: a list after the figures' tables."""
+class Page(namedtuple("Page", "title leads head sections remarks")):
+    """leads: sentences, each a paragraph; head: tables that follow them; remarks: a list after the figures' tables. Tables without rows and
+    sections that are None are left out."""
 
-    title: str
-    leads: list
-    head: list
-    sections: list
-    remarks: list = []
-
-
-def _one(job):
-    made, folder, forms = _JOBS[job]
-    return house.save(made, folder, forms) if isinstance(made, house.Picture) else ([], made())
-
-
-_JOBS = []
-
-
-def _draw(jobs, folder, forms):
-    """Results of house.save of pictures, and of elements, one after another, made over the cores. Workers are forked, so that they
-    have what has been read."""
-    _JOBS[:] = [(job, folder, forms) for job in jobs]
-    workers = min(len(os.sched_getaffinity(0)), len(_JOBS))
-    if workers < 2:
-        yield from map(_one, range(len(_JOBS)))
-        return
-    with ProcessPoolExecutor(workers, get_context("fork"), initializer=gc.disable) as pool:  # workers end soon
-        yield from pool.map(_one, range(len(_JOBS)))
+    def __new__(cls, title, leads, head, sections, remarks):
+        filled = lambda tables: [table for table in tables if table.rows]  # noqa: E731
+        sections = [section._replace(tables=filled(section.tables)) for section in sections if section is not None]
+        return super().__new__(cls, title, leads, filled(head), sections, remarks)
 
 
 def _written(page, drawn):
-    body = [f"<h1>{html.escape(page.title)}</h1>"]
-    body += [f'<p class="{"verdict" if k == 0 else "lead"}">{html.escape(lead)}</p>' for k, lead in enumerate(page.leads)]
-    shown = [s for s in page.sections if s.pictures or s.tables or s.element]
-    if any(s.heading for s in shown):
-        body.append("<nav>" + " &middot; ".join(f'<a href="#{html.escape(s.anchor)}">{html.escape(s.heading)}</a>'
-                                                for s in shown if s.heading) + "</nav>")
+    title, shown = html.escape(page.title), [s for s in page.sections if s.pictures or s.tables or s.element]
+    body = [f"<h1>{title}</h1>"]
+    body += [f'<p class="{"lead" if k else "verdict"}">{html.escape(lead)}</p>' for k, lead in enumerate(page.leads)]
+    links = [f'<a href="#{html.escape(s.anchor)}">{html.escape(s.heading)}</a>' for s in shown if s.heading]
+    body += ["<nav>" + " &middot; ".join(links) + "</nav>"] if links else []
     body += [table.html() for table in page.head]
-    if page.remarks:
-        body.append("<ul>" + "".join(f"<li>{html.escape(one)}</li>" for one in page.remarks) + "</ul>")
+    body += ["<ul>" + "".join(f"<li>{html.escape(one)}</li>" for one in page.remarks) + "</ul>"] if page.remarks else []
     for section in shown:
-        if section.heading:
-            body.append(f'<h2 id="{html.escape(section.anchor)}">{html.escape(section.heading)}</h2>')
-        body += [table.html() for table in section.tables]
-        body.append(drawn.get(section.anchor, "") if callable(section.element) else section.element)
+        body += [f'<h2 id="{html.escape(section.anchor)}">{html.escape(section.heading)}</h2>'] if section.heading else []
+        body += [*(table.html() for table in section.tables), drawn.get(section.anchor, "") if section.element else ""]
         for picture in section.pictures:
             inside = drawn.get(picture.name, '<p class="note">is being drawn: load the page again in a few seconds</p>')
             body.append(f'<figure id="{picture.name}">{inside}<figcaption>{html.escape(picture.caption)}</figcaption></figure>')
     return ('<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
             '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-            f"<title>{html.escape(page.title)}</title>\n<style>{(HERE / 'page.css').read_text()}</style>\n</head>\n<body>\n"
-            + "\n".join(body) + f"\n<script>{(HERE / 'page.js').read_text()}</script>\n</body>\n</html>\n")
+            f"<title>{title}</title>\n<style>{(HERE / 'page.css').read_text()}</style>\n</head>\n<body>\n"
+            + "\n".join(body) + f"\n<script>{(HERE / 'page.js').read_text()}</script>\n</body>\n</html>\n").encode(errors="replace")
 
 
 def write(page, folder, forms=(), say=print):
     """Draws the pictures of a page into folder (made where it is not there) and writes report.html there: first with its
     charts and tables, then whole. Returns the path of the page. OutputError where a file cannot be written."""
     folder = Path(folder)
-    pictures = [picture for section in page.sections for picture in section.pictures]
-    path, drawn, files = folder / "report.html", {}, []
+    path, drawn, files = folder / "report.html", {}, {}
+    pictures = {picture.name: picture for section in page.sections for picture in section.pictures}
+    charts, images = ({name: p for name, p in pictures.items() if p.raster == raster} for raster in (False, True))
+    make = lambda what: house.save(what, folder, forms) if isinstance(what, house.Picture) else ([], what())  # noqa: E731
+    jobs = {**charts, **{section.anchor: section.element for section in page.sections if section.element}, **images}
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        charts, images = ([p for p in pictures if p.raster == raster] for raster in (False, True))
-        elements = {section.anchor: section.element for section in page.sections if callable(section.element)}
-        jobs = {**{p.name: p for p in charts}, **elements, **{p.name: p for p in images}}
-        for name, (written, inside) in zip(jobs, _draw(jobs.values(), folder, forms)):
-            drawn[name] = inside
-            files += written
+        for name, (written, inside) in zip(jobs, house.over_cores(make, jobs.values())):
+            drawn[name], files[name] = inside, written
             if len(drawn) == len(charts) < len(jobs):
-                house.write_aside(path, _written(page, drawn).encode(errors="replace"))
-        house.write_aside(path, _written(page, drawn).encode(errors="replace"))
+                house.write_aside(path, _written(page, drawn))
+        house.write_aside(path, _written(page, drawn))
     except OSError as error:
         raise OutputError(f"{error.filename or folder}: cannot be written: {error.strerror}") from None
-    for file in sorted(files, key=lambda f: [p.name for p in pictures].index(f.stem)):
+    for file in (file for name in pictures for file in files[name]):
         say(f"drawn: {file}")
     say(f"page: {path}\n")
-    for lead in page.leads:
-        say(lead)
-    for table in [*page.head, *(t for s in page.sections for t in s.tables)]:
-        say(table.text() + "\n")
-    for remark in page.remarks:
-        say(remark)
+    tables = [*page.head, *(table for section in page.sections for table in section.tables)]
+    for text in [*page.leads, *(table.text() + "\n" for table in tables), *page.remarks]:
+        say(text)
     return path

@@ -1,54 +1,57 @@
 """What platens and specimen do to each other: friction, pressure and shear on the ends, loads along strips, which spheres slide."""
 import math
 import re
+from collections import namedtuple
 from functools import lru_cache, partial
-from typing import NamedTuple
 
 import numpy
-from matplotlib import colormaps, colors
+from matplotlib.colors import Normalize
 
 from ..errors import InputError
-from .fields import has_stress, near_peak, picture_of_stress_flow, point_data
-from .house import BLACK, BLUE, GREEN, GREY, MM, MPA, MS, VERMILION, Picture, chart, colour_bar, legend, span
-from .run import SIDES, STRESS
+from .fields import has_stress, near_peak, picture_of_stress_flow
+from .house import BLACK, BLUE, GREEN, GREY, MM, MPA, MS, VERMILION, VIRIDIS, Picture, above, chart, colour_bar, legend_above, span
+from .run import number_with_unit, point_data
 
+AXIS = {"bottom": 2, "top": 2, "left": 0, "right": 0, "front": 1, "back": 1}  # of each side, the low one of each pair first
 _UPRIGHT = 0.7  # of a normal; contacts at the rim of a platen may press aslant, those of a sleeve press sideways
 _RINGS = 5  # of equal area; the outermost is wider than a sphere's radius
 _FEW = 8  # spheres
 _MOST_OVER_MEAN = 2.5  # of colours of pressure
 
 
-class Contacts(NamedTuple):
-    """Of one platen in one frame, in its plane: (x, y) of top and bottom, (y, z) of left and right, (x, z) of front and back."""
-
-    x: numpy.ndarray  # m
-    y: numpy.ndarray  # m
-    normal_force: numpy.ndarray  # N, pressing
-    inward_shear: numpy.ndarray  # N, on the specimen, towards the origin of the plane
-    sliding: numpy.ndarray
-    shear_force: numpy.ndarray  # N, size
-    slip: numpy.ndarray  # m, until now
+class Contacts(namedtuple("Contacts", "x y normal_force inward_shear sliding shear_force slip")):
+    """Of one platen in one frame, in its plane: (x, y) of top and bottom, (y, z) of left and right, (x, z) of front and back, m.
+    normal_force: N, pressing; inward_shear: N, on the specimen, towards the origin of the plane; shear_force: N, its size; slip: m,
+    until now."""
 
 
-def axis_of(side):
-    """0 x, 1 y, 2 z."""
-    return (2, 0, 1)[SIDES.index(side) // 2]
+# ---- sides
+def has_further_sides(run):
+    return len(sides_of(run)) > 2
 
 
-def plane_of(side):
-    """Axes of a picture of the side, across and up: 0 x, 1 y, 2 z."""
-    return ((1, 2), (0, 2), (0, 1))[axis_of(side)]
+def stress_column(side):
+    """Of the history."""
+    return f"axial_stress_{side}_pa" if AXIS[side] == 2 else f"stress_{side}_pa"
 
 
 def sides_of(run):
     """Names of the sides that have platens, as the columns of the history say: bottom and top, and further ones of a box."""
-    return [side for k, side in enumerate(SIDES) if axis_of(side) == 2 or run.has(STRESS[axis_of(side)][k % 2])]
+    return [side for side in AXIS if run.has(stress_column(side))]
+
+
+def plane_of(side):
+    """Axes of a picture of the side, across and up: 0 x, 1 y, 2 z."""
+    return [axis for axis in range(3) if axis != AXIS[side]]
+
+
+def _is_high(side):
+    return side in ("top", "right", "back")
 
 
 def style(side):
     """Colour and line of a side in every chart: a colour an axis, the high side dashed."""
-    k = SIDES.index(side)
-    return {"color": (BLUE, VERMILION, GREEN)[k // 2], "ls": "--" if k % 2 else "-"}
+    return {"color": (VERMILION, GREEN, BLUE)[AXIS[side]], "ls": "--" if _is_high(side) else "-"}
 
 
 def contacts_of(run, side, time):
@@ -57,23 +60,23 @@ def contacts_of(run, side, time):
     grid = run.grid("contacts", time)
     normal, shear, force, sliding, slip = point_data(grid, run.folder / "contacts.pvd", normal=3, shear=3, normal_force=1, sliding=1,
                                                      slip=1)
-    inward = -1 if SIDES.index(side) % 2 else 1
-    here = inward * normal[:, axis_of(side)] > _UPRIGHT
+    here = (-1 if _is_high(side) else 1) * normal[:, AXIS[side]] > _UPRIGHT
     (x, y), along = grid.points[here][:, plane_of(side)].T, shear[here][:, plane_of(side)]
     away = numpy.hypot(x, y)
     inwards = -numpy.divide(along[:, 0] * x + along[:, 1] * y, away, out=numpy.zeros(len(x)), where=away > 0)
     return Contacts(x, y, force[here], inwards, sliding[here] != 0, numpy.linalg.norm(shear[here], axis=1), slip[here])
 
 
+# ---- friction
 def _number(run, path, unit):
     """SI, of an entry of the scene; NaN where it has none. InputError where it is no number of the unit, "1" or "m"."""
-    text, value = run.entry(path), run.number(path)
+    text = run.entry(path)
+    value = number_with_unit(text) if text else math.nan
     if text and (math.isnan(value) or not re.search({"1": r"([\d.%]|percent)$", "m": r"([\d.]|m|inch)$"}[unit], text)):
         raise InputError(f"{run.folder / 'scene.prm'}: {path} = {text} is no number" + (" in a unit of length" if unit == "m" else ""))
     return value
 
 
-# ---- friction
 def friction_limits(run, side):
     """Coefficients of friction of a platen (at rest, sliding), as the scene says for it, else for all; NaN where it says none."""
 
@@ -99,21 +102,19 @@ def friction_words(run):
             for side, (rest, sliding) in limits.items() if not math.isnan(rest)]
 
 
-def ratio(parts, wholes):
-    """Sum of parts over sum of wholes, and its standard error by the scatter of the single ones (NaN of one); NaN without any."""
-    n, whole = len(parts), wholes.sum()
-    if not whole > 0:
-        return math.nan, math.nan
-    value = parts.sum() / whole
-    return value, math.sqrt(n / (n - 1) * ((parts - value * wholes) ** 2).sum()) / whole if n > 1 else math.nan
-
-
 def friction_state(contacts):
-    """What one platen's contacts do together, each with its standard error: share of them that slide; friction over pressing
-    force; mean slip, each as heavy as it presses (m). NaN where nothing presses."""
-    one = numpy.ones(len(contacts.x)) * (contacts.normal_force.sum() > 0)
-    return numpy.array([ratio(contacts.sliding * one, one), ratio(contacts.shear_force, contacts.normal_force),
-                        ratio(contacts.slip * contacts.normal_force, contacts.normal_force)])
+    """What one platen's contacts do together: share of them that slide; friction over pressing force; mean slip, each as heavy as it
+    presses (m); each with its standard error by the scatter of the contacts (NaN of one). NaN where nothing presses."""
+
+    def ratio(parts, wholes):
+        n, whole = len(parts), wholes.sum()
+        if not whole > 0:
+            return math.nan, math.nan
+        value = parts.sum() / whole
+        return value, math.sqrt(n / (n - 1) * ((parts - value * wholes) ** 2).sum()) / whole if n > 1 else math.nan
+
+    force, one = contacts.normal_force, numpy.ones(len(contacts.x)) * (contacts.normal_force.sum() > 0)
+    return numpy.array([ratio(contacts.sliding * one, one), ratio(contacts.shear_force, force), ratio(contacts.slip * force, force)])
 
 
 @lru_cache(maxsize=4)
@@ -128,53 +129,38 @@ def has_friction(run):
     return not is_glued(run) and any(numpy.isfinite(_states(run)[side][:, 1, 0]).any() for side in ("bottom", "top"))
 
 
-def _stages(axes, run, words=False):
-    """Stretches of the test, named at the top."""
+def _over_time(axes, run, title, words=False):
+    """Title of the y axis, the time on x, and the stretches of the test, which may be named at the top."""
     if run.zero > 0:
         span(axes, run.h["time_s"][0] * MS, run.h["time_s"][run.zero] * MS, "consolidation" if words else "")
     axes.axvline(run.peak_time * MS, color=GREY, lw=0.8)
     if words:
-        axes.annotate("peak", (run.peak_time * MS, 1), xycoords=("data", "axes fraction"), ha="center", va="bottom", fontsize=8)
-    axes.set(xlabel="Time (ms)", xlim=(0, run.end_time * MS))
+        above(axes, run.peak_time * MS, "peak")
+    axes.set(xlabel="Time (ms)", ylabel=title, xlim=(0, run.end_time * MS))
 
 
-def _friction_curve(axes, run, which, factor=1):
+def friction(axes, run, which="friction"):
+    """Over time, with its standard error: the "share" of the contacts that slide; "friction" over pressing force, with the limits of
+    the scene; or the mean "slip"."""
+    k = ("share", "friction", "slip").index(which)
+    factor, title = ((1, "Share that slides"), (1, "Friction / pressure"), (1e6, "Slip (µm)"))[k]
+    time, most, limits = run.series("contacts").times * MS, 0, {}
     for side, states in _states(run).items():
-        value, error = states[:, which].T * factor
-        time = run.series("contacts").times * MS
+        value, error = states[:, k].T * factor
         axes.plot(time, value, label=side, **style(side))
         axes.fill_between(time, value - error, value + error, color=style(side)["color"], alpha=0.15, lw=0)
-    axes.set_ylim(0, None if any(numpy.nanmax(states[:, which, 0], initial=0) > 0 for states in _states(run).values()) else 1)
-
-
-def sliding_share(axes, run):
-    """Share of the contacts that slide, over time."""
-    _friction_curve(axes, run, 0)
-    _stages(axes, run)
-    axes.set_ylabel("Share that slides")
-    legend(axes, above=True, ncols=6)
-
-
-def friction(axes, run):
-    """Friction over pressing force, over time, with the limits of the scene."""
-    _friction_curve(axes, run, 1)
-    limits = {}
-    for side in sides_of(run):
-        for words, limit in zip(("static", "sliding"), friction_limits(run, side)):
+        most = max(most, numpy.nanmax(value, initial=0))
+        for words, limit in zip(("static", "sliding"), friction_limits(run, side) if which == "friction" else ()):
             if not math.isnan(limit):
                 limits.setdefault(limit, words)
+    axes.set_ylim(0, None if most > 0 else 1)
     for limit, words in limits.items():
         axes.axhline(limit, color=GREY, ls=":", lw=1)
         axes.annotate(f"limit, {words}: {limit:.3g}", (1, limit), xycoords=("axes fraction", "data"), ha="right", va="bottom", fontsize=8)
-    _stages(axes, run, words=True)
-    axes.set(ylabel="Friction / pressure", ylim=(0, max(axes.get_ylim()[1], 1.2 * max(limits, default=0))))
-
-
-def slip(axes, run):
-    """Mean slip over time."""
-    _friction_curve(axes, run, 2, 1e6)
-    _stages(axes, run)
-    axes.set_ylabel("Slip (µm)")
+    _over_time(axes, run, title, words=which == "friction")
+    axes.set_ylim(0, max(axes.get_ylim()[1], 1.2 * max(limits, default=0)))
+    if which == "share":
+        legend_above(axes, ncols=6)
 
 
 def friction_work(axes, run):
@@ -183,10 +169,9 @@ def friction_work(axes, run):
         if run.has(f"friction_work_{side}_j"):
             axes.plot(run.h["time_s"] * MS, run.h[f"friction_work_{side}_j"], label=side, **style(side))
     if run.has("friction_work_j"):
-        whole = axes.plot(run.h["time_s"] * MS, run.h["friction_work_j"], color=BLACK, label="platens and grains")
-        legend(axes, loc="upper left", handles=whole)
-    _stages(axes, run)
-    axes.set_ylabel("Work (J)")
+        axes.legend(handles=axes.plot(run.h["time_s"] * MS, run.h["friction_work_j"], color=BLACK, label="platens and grains"),
+                    loc="upper left")
+    _over_time(axes, run, "Work (J)")
 
 
 # ---- pressure
@@ -220,7 +205,7 @@ def profile(axes, run, shear=False):
     axes.set(xlabel="Distance from the axis (mm)", ylabel="Inward shear (MPa)" if shear else "Pressure (MPa)",
              xlim=(0, run.extent.half_width * MM))
     if not shear:
-        legend(axes, above=True)
+        legend_above(axes)
 
 
 def face_pressure(contacts, low, high, square):
@@ -234,23 +219,16 @@ def face_pressure(contacts, low, high, square):
     return force.reshape(rows, columns) / (edges / counts).prod()
 
 
-def _box(run):
-    """Low and high corner of the specimen, m."""
-    extent = run.extent
-    return numpy.array([[-extent.half_width, -extent.half_depth, extent.bottom], [extent.half_width, extent.half_depth, extent.top]])
-
-
-def _face_size(run):
-    """Across and up, m, of what all sides of the specimen fit into."""
-    return numpy.max([numpy.ptp(_box(run), 0)[list(plane_of(side))] for side in sides_of(run)], axis=0)
+def _face_size(run):  # across and up, m, of what all sides of the specimen fit into
+    return numpy.max([numpy.ptp(run.extent.corners, 0)[plane_of(side)] for side in sides_of(run)], axis=0)
 
 
 def _face(axes, run, side):
     """Limits and titles of a picture of a face; all sides in one scale. Returns its low and high corner, m."""
-    corners, size = _box(run)[:, plane_of(side)], _face_size(run)
-    (left, low), (right, high) = (corners.mean(0) + sign * 0.525 * size for sign in (-1, 1))
+    corners, size = run.extent.corners[:, plane_of(side)], _face_size(run)
+    (left, low), (right, high) = ((corners.mean(0) + sign * 0.525 * size) * MM for sign in (-1, 1))
     across, up = ("xyz"[axis] for axis in plane_of(side))
-    axes.set(xlabel=f"{across} (mm)", ylabel=f"{up} (mm)", xlim=(left * MM, right * MM), ylim=(low * MM, high * MM))
+    axes.set(xlabel=f"{across} (mm)", ylabel=f"{up} (mm)", xlim=(left, right), ylim=(low, high))
     axes.set_box_aspect(size[1] / size[0])
     return corners
 
@@ -259,7 +237,7 @@ def face(axes, run, side, bar=True):
     """Pressure on a platen of a box over its face near the peak, over the mean of the platen, in squares of two spheres an edge."""
     low, high = _face(axes, run, side)
     pressure = face_pressure(contacts_of(run, side, run.peak_time), low, high, 4 * run.mean_radius)
-    ramp, norm, mean = colormaps["viridis"].copy(), colors.Normalize(0, _MOST_OVER_MEAN), pressure.mean()
+    ramp, norm, mean = VIRIDIS.copy(), Normalize(0, _MOST_OVER_MEAN), pressure.mean()
     ramp.colorbar_extend = "max"
     axes.imshow(pressure / mean if mean > 0 else pressure, cmap=ramp, norm=norm, origin="lower", aspect="auto",
                 extent=numpy.ravel([low, high], "F") * MM)
@@ -280,7 +258,7 @@ def stick_and_slip(axes, run, side):
         axes.plot([], [], mark, color=colour, label=words)
         axes.scatter(contacts.x[chosen] * MM, contacts.y[chosen] * MM, area[chosen], colour, mark, lw=1 if mark == "x" else 0,
                      rasterized=len(area) > 500)
-    legend(axes, above=True, columnspacing=0.8, handletextpad=0.1)
+    legend_above(axes, columnspacing=0.8, handletextpad=0.1)
 
 
 # ---- strips
@@ -301,12 +279,11 @@ def strip_loads(axes, run):
     half = run.extent.half_depth
     parts = max(3, int(half / (2 * run.mean_radius)))  # so that most have a sphere at least
     top, below = (contacts_of(run, side, run.peak_time) for side in ("top", "bottom"))
-    strips = {"top": (top, BLUE, "--")}
+    strips = {"top": (top, BLUE, "--"), "bottom": (below, BLUE, "-")}
     if _number(run, "Platens/Span", "m") > 0:
+        del strips["bottom"]
         for name, here, colour in (("left support", below.x < 0, VERMILION), ("right support", below.x >= 0, GREEN)):
             strips[name] = Contacts(*(values[here] for values in below)), colour, "-"
-    else:
-        strips["bottom"] = below, BLUE, "-"
     edges = numpy.linspace(-half, half, parts + 1) * MM
     for k, (name, (contacts, colour, line)) in enumerate(strips.items()):
         load, error = (values * 1e-3 for values in load_along(contacts, half, parts))
@@ -314,24 +291,22 @@ def strip_loads(axes, run):
         places = edges[:-1] + (edges[1] - edges[0]) * (k + 1) / (len(strips) + 1)
         axes.errorbar(places, load, error, fmt="none", ecolor=colour, elinewidth=0.8, capsize=3)
     axes.set(xlabel="y, along the strips (mm)", ylabel="Load (kN/m)", xlim=(edges[0], edges[-1]))
-    legend(axes, above=True)
+    legend_above(axes)
 
 
 # ---- pictures
 def _faces(name, caption, draw, run, bar):
     """A Picture of all sides with platens; of more than two, the low ones are below the high ones of their axis."""
-    sides = sides_of(run)
+    sides, size = sides_of(run), _face_size(run)
     rows = [sides] if len(sides) == 2 else [sides[1::2], sides[::2]]
-    size = _face_size(run)
     width = (7.6 - 0.72 * len(rows[0]) - (0.95 if bar else 0.15)) / len(rows[0])
-    more = (lambda side: {"bar": side == rows[0][-1]}) if bar else (lambda side: {})
-    return Picture(name, caption, [[partial(draw, run=run, side=side, **more(side)) for side in row] for row in rows],
-                   width * size[1] / size[0], bar=bar, titles=True)
+    draws = [[partial(draw, run=run, side=side, **({"bar": side == rows[0][-1]} if bar else {})) for side in row] for row in rows]
+    return Picture(name, caption, draws, width * size[1] / size[0], bar=bar, titles=True)
 
 
 def pictures_of_ends(run):
     """The Pictures of the section "Platens and ends" that the files of a run allow."""
-    if run.series("contacts") is None:
+    if not run.series("contacts"):
         return []
     found = [picture_of_stress_flow(run)] if has_stress(run) else []
     if has_friction(run):
@@ -339,14 +314,13 @@ def pictures_of_ends(run):
             "friction", "Friction between specimen and platens over time. From the top: the share of the spheres at each platen that "
             "slide; friction over pressure, with the limits of the scene; the mean slip, weighted by pressure; the work of friction. A "
             "platen does not slide as a whole while its friction is below the limit. Shaded: one standard error by the scatter of the "
-            "spheres.",
-            *(partial(draw, run=run) for draw in (sliding_share, friction, slip, friction_work)), heights=[1.5, 1.9, 1.5, 1.5],
-            shared=True, titles=True))
+            "spheres.", *(partial(friction, which=which) for which in ("share", "friction", "slip")), friction_work, run=run,
+            heights=[1.5, 1.9, 1.5, 1.5], shared=True, titles=True))
     near, of_spheres = near_peak(run, "contacts"), "one standard error by the scatter of the spheres"
     if has_strips(run):
         found.append(chart("strip_loads", f"Load along each strip {near}. Under an even load all steps have one height. Error bars: "
-                           f"{of_spheres} in a step.", partial(strip_loads, run=run), heights=3, titles=True))
-    elif len(sides_of(run)) > 2 or run.extent.form == "box":
+                           f"{of_spheres} in a step.", strip_loads, run=run, heights=3, titles=True))
+    elif has_further_sides(run) or run.extent.form == "box":
         found.append(_faces("side_pressure", f"Pressure on each platen over the face of the specimen {near}, over the mean of that platen. "
                             "A square has an edge of two spheres, so single spheres show. In dark squares little or nothing presses.",
                             face, run, bar=True))
@@ -354,8 +328,7 @@ def pictures_of_ends(run):
         found.append(chart(
             "platen_pressure", f"Pressure on the platens and shear on the ends over the radius {near}, in five rings of equal area. Inward "
             f"shear confines an end; negative pressure is tension. Error bars: {of_spheres} in a ring; a mark with a white centre: fewer "
-            f"than {_FEW} spheres.", partial(profile, run=run), partial(profile, run=run, shear=True), heights=2.4, shared=True,
-            titles=True))
+            f"than {_FEW} spheres.", profile, partial(profile, shear=True), run=run, heights=2.4, shared=True, titles=True))
     if not is_glued(run):
         found.append(_faces("stick_slip", f"Spheres at each platen {near}: which stick and which slide. The larger a mark, the larger its "
                             "pressing force.", stick_and_slip, run, bar=False))

@@ -4,11 +4,10 @@ from functools import partial
 
 import numpy
 
-from . import words
-from .house import BLACK, BLUE, CYCLE, GPA, MARKS, MM, MPA, chart, legend_over
-from .kit import bars, over_packings, plain_decades, scatter_bars, with_unit
+from .house import BLACK, BLUE, CYCLE, GPA, MARKS, MM, MPA, PALE, bars, chart, digits, legend_over, plain_decades, scatter_bars, titled
 from .pages import Section, Table
 from .run import number_in
+from .words import over_packings, with_unit
 
 MEASURES = {"strength": "strength", "strain_at_peak": "strain at the peak", "modulus": "Young's modulus", "broken_bonds": "broken bonds"}
 PARTS = {"packing": "scatter of packings", "chaos": "chaos of crushing", "speed": "law of speed", "step": "time step"}
@@ -39,7 +38,7 @@ def errors(axes, parameters, measure):
     axes.margins(0.1, 0.12)
     if numpy.isfinite(scatter).any():
         top, (low, high) = float(numpy.nanmean(scatter)), axes.get_ylim()
-        axes.axhspan(min(low, 0.7 * top), top, color="#eeeeee", zorder=0, label="within the scatter of packings")
+        axes.axhspan(min(low, 0.7 * top), top, color=PALE, zorder=0, label="within the scatter of packings")
         axes.set_ylim(min(low, 0.7 * top), max(high, 1.3 * top))
     plain_decades(axes.xaxis)
     plain_decades(axes.yaxis)
@@ -48,7 +47,7 @@ def errors(axes, parameters, measure):
 
 def _table_of_errors(parameter):
     rows = [[value["text"], str(value["errors"]["strength"]["runs"]), *(over_packings(of[key], 100).words("+.2g") for key in MEASURES),
-             words.digits(value["seconds"])] for value in parameter["values"] for of in [value["errors"]]]
+             digits(value["seconds"])] for value in parameter["values"] for of in [value["errors"]]]
     scatter = [100 * number_in(parameter["scatter_of_seeds"], key) for key in MEASURES]
     rows[-1][2:-1] = ["-" if math.isnan(one) else f"({one:.2g})" for one in scatter]
     rows[-1][0] += " (reference)"
@@ -59,7 +58,7 @@ def _table_of_errors(parameter):
 def _table_of_prices(prices):
     rows, bounds = {}, list(dict.fromkeys(one["within"] for one in prices))
     for one in prices:
-        text = "not reached" if one["value"] is None else f"{words.digits(one['seconds'])} s ({one['value']})"
+        text = "not reached" if one["value"] is None else f"{digits(one['seconds'])} s ({one['value']})"
         rows.setdefault(f"{one['knob']}, {MEASURES.get(one['of'], one['of'])}", {})[one["within"]] = text
     return Table(["parameter, figure", *(f"{100 * bound:g} %" for bound in bounds)],
                  [[name, *(row.get(bound, "-") for bound in bounds)] for name, row in rows.items()],
@@ -82,8 +81,7 @@ def section_of_accuracy(said):
                            "over seconds of a run; from coarse to fine along each line. Grey: within the scatter of packings (mean over "
                            "the references): there specimens differ by more than the error.",
                            *(partial(errors, parameters=said["accuracy"], measure=key) for key in keys), heights=3.2)] if keys else []
-    return (Section("Errors over cost", pictures, [table for table in tables if table.rows]),
-            [] if pictures else ["no run has an error: there is nothing to draw"])
+    return Section("Errors over cost", pictures, tables), [] if pictures else ["no run has an error: there is nothing to draw"]
 
 
 # ---- target
@@ -95,9 +93,8 @@ def estimate(axes, looks, accuracy, title):
     scatter_bars(axes, seconds, mean * numpy.exp(-half), mean * numpy.exp(half), BLUE)
     for sign in (-1, 1):
         axes.axhline(mean[-1] * (1 + sign * accuracy), color=BLACK, ls="--", lw=1, label="ordered accuracy" if sign > 0 else None)
-    axes.set(xlabel="Seconds of one core", ylabel=title[0].upper() + title[1:])
     axes.margins(0.08, 0.1)
-    legend_over(axes, 2)
+    titled(axes, "Seconds of one core", title[0].upper() + title[1:], 2)
 
 
 def section_of_target(said):
@@ -124,9 +121,9 @@ def section_of_target(said):
                   "After each batch of runs", f"+-: half of the interval; after it its parts in %: {', '.join(PARTS.values())}.")
     pictures = [
         chart("target", "The figure of slow loading and its interval after each batch of runs. Dashed: as accurate as was ordered.",
-              partial(estimate, looks=looks, accuracy=accuracy, title=title)),
+              estimate, looks=looks, accuracy=accuracy, title=title),
         chart("target_parts", "Parts of half the interval at the end, in % of the figure. Their squares add up. Line: what was ordered.",
-              partial(bars, names=[*PARTS.values(), "all"], values=[100 * part for part in (*parts, half)],
-                      texts=[percent(part) + " %" for part in (*parts, half)], title="Half of the interval (%)",
-                      colours=[BLUE] * len(PARTS) + [BLACK], mark=100 * accuracy), heights=1.6, margin=1.6)]
+              bars, names=[*PARTS.values(), "all"], values=[100 * part for part in (*parts, half)],
+              texts=[percent(part) + " %" for part in (*parts, half)], title="Half of the interval (%)",
+              colours=[BLUE] * len(PARTS) + [BLACK], mark=100 * accuracy, heights=1.6, margin=1.6)]
     return Section("Accuracy over cost", pictures, [table]), remarks

@@ -1,17 +1,16 @@
-"""Pages of programs that crush nothing: packings (platen-pack), bond tests (platen-bonds), bars (platen-bar)."""
+"""Pages of packings (platen-pack), bond tests (platen-bonds), bars (platen-bar), and calibrations (platen-calibrate): targets beside
+calibrated values, parameters of the bonds, curves; of an abacus its moduli."""
 import math
 import re
 from functools import partial
-from pathlib import Path
 
 import numpy
 
-from . import words
 from ..results import read_table
-from .house import BLACK, BLUE, CYCLE, GPA, GREY, MM, VERMILION, chart, legend_over
-from .kit import bars, reading, table_with
+from .house import BLACK, BLUE, CYCLE, GPA, GREY, MARKS, MM, MPA, PALE, VERMILION, bars, chart, digits, titled
 from .pages import Page, Section, Table
-from .run import number_in
+from .run import Results, number_in, reading, table_with
+from .words import Spread, head, over_packings, true_title, with_unit, words_of_key
 
 COSTS = ("steps", "time_step_s", "threads", "wall_seconds", "setup_seconds", "particle_steps_per_second", "peak_memory_bytes")
 GAPS = (1e-3, 0.05)  # mean radii: touching, and what a bond of the shipped scenes reaches
@@ -25,6 +24,10 @@ BAR = (("stretch under tension", "tension/static_displacement_m", "tension/stati
        ("wave speed after impact", "impact/wave_speed_m_s", "impact/wave_speed_by_hand_m_s", 1e-3, "km/s"),
        ("Young's modulus, in bulk", "bulk/youngs_modulus_pa", "", GPA, "GPa"),
        ("Poisson's ratio, in bulk", "bulk/poisson_ratio", "", 1, ""))
+JUDGED = (("training", "packings calibrated on", BLUE), ("verification", "unseen packings", VERMILION))
+FINDINGS = (("missed", "not met together"), ("at_bounds", "at its bound"), ("undetermined", "not determined by the targets"),
+            ("correlated", "hardly distinguished"))
+VARIED = ("radius_multiplier", "stiffness_ratio", "bond_poisson_ratio", "bond_modulus_pa")
 LOADS = (("tension", "end_z_m", "Stretch (um)", 1e6), ("bending", "end_x_m", "Deflection (um)", 1e6),
          ("torsion", "end_twist_rad", "Twist (mrad)", 1e3))
 
@@ -70,16 +73,14 @@ def coordination(axes, position, radius):
         of = neighbours(position, radius, gap * radius.mean())
         share = 100 * numpy.bincount(of) / len(of)
         axes.plot(range(len(share)), share, "o-", color=CYCLE[k], label=f"within a gap of {gap:g} mean radii: {of.mean():.2f} in the mean")
-    axes.set(xlabel="Neighbours of a sphere", ylabel="Share of the spheres (%)")
-    legend_over(axes)
+    titled(axes, "Neighbours of a sphere", "Share of the spheres (%)")
 
 
 def density(axes, height, share):
     """Filled share over the height (m)."""
     axes.plot(height * MM, share, color=BLUE, label="slices of about a mean radius")
     axes.axhline(share.mean(), color=GREY, ls="--", label=f"mean {share.mean():.3f}")
-    axes.set(xlabel="Height above the bottom (mm)", ylabel="Share of the volume that is filled")
-    legend_over(axes, 2)
+    titled(axes, "Height above the bottom (mm)", "Share of the volume that is filled", 2)
 
 
 def _pack(folder, summary, remarks):
@@ -96,28 +97,17 @@ def _pack(folder, summary, remarks):
         slices = int(numpy.clip(round(of["height_m"] / radius.mean()), 8, 200))
         height, share = density_profile(position[:, 2], radius, of["height_m"], area, slices)
         pictures.append(chart("density", "Share of each slice that spheres fill, from the bottom to the top. At flat walls it is smaller, "
-                              "and it goes up and down over a few spheres.", partial(density, height=height, share=share)))
+                              "and it goes up and down over a few spheres.", density, height=height, share=share))
     else:
         remarks.append("density over the height is drawn of cylinders and boxes alone")
     if not summary:
         remarks.append("summary.json is not there: its figures are left out")
-    numbers = [[key, words.digits(value)] for key, value in summary.items()
+    numbers = [[key, digits(value)] for key, value in summary.items()
                if isinstance(value, (int, float)) and not isinstance(value, bool) and key not in COSTS]
-    return Section("The packing", pictures, [Table(["figure (SI)", "value"], numbers)] if numbers else [])
+    return [Section("The packing", pictures, [Table(["figure (SI)", "value"], numbers)])]
 
 
 # ---- bond tests
-def _compared(table, measured):
-    """Which of the measured columns stands in `by_hand`: the one whose differences the table has."""
-    known = numpy.isfinite(table["by_hand"]) & numpy.isfinite(table["difference"]) & (table["by_hand"] != 0)
-    misses = {}
-    for name in measured:
-        rows = known & numpy.isfinite(table[name])
-        if rows.any():
-            misses[name] = numpy.abs(table[name][rows] / table["by_hand"][rows] - 1 - table["difference"][rows]).max()
-    return min(misses, key=misses.get) if misses else measured[0]
-
-
 def bond_paths(axes, table, displacement, load, compared):
     """Load over displacement of each run, from rest; dashed: the closed form, where it is of one of both."""
     factor, name = (1e6, "Displacement (um)") if displacement == "displacement_m" else (1e3, "Rotation (mrad)")
@@ -130,8 +120,7 @@ def bond_paths(axes, table, displacement, load, compared):
         if compared in (displacement, load) and rows.any():
             x, y = (table["by_hand" if compared == column else column][rows] for column in (displacement, load))
             axes.plot(numpy.r_[0, x] * factor, numpy.r_[0, y], "--", color=BLACK, lw=1, label="closed form" if k == 0 else None)
-    axes.set(xlabel=name, ylabel="Force (N)" if load == "force_n" else "Moment (N m)")
-    legend_over(axes, 2)
+    titled(axes, name, "Force (N)" if load == "force_n" else "Moment (N m)", 2)
 
 
 def strain_ratios(axes, table):
@@ -139,30 +128,28 @@ def strain_ratios(axes, table):
     last = [numpy.flatnonzero(table["run"] == run)[-1] for run in numpy.unique(table["run"])]
     for column, name, colour, mark, size in (("strain_ratio", "measured", BLUE, "o", 7), ("by_hand", "closed form", VERMILION, "D", 3)):
         axes.plot(table["stiffness_ratio"][last], table[column][last], mark, color=colour, ms=size, label=name)
-    axes.set(xlabel="Stiffness ratio of the bonds", ylabel="Strain ratio of the triangle")
-    legend_over(axes, 2)
+    titled(axes, "Stiffness ratio of the bonds", "Strain ratio of the triangle", 2)
 
 
 def _bonds(folder, summary, remarks):
     table = table_with(folder / "bonds.csv", "run", "modulus_pa", "stiffness_ratio", "force_n", "displacement_m", "moment_nm",
-                       "rotation_rad", "by_hand", "difference")
+                       "rotation_rad", "strain_ratio", "by_hand")
     moment = table["moment_nm"]
     displacement, load = ("rotation_rad", "moment_nm") if (numpy.isfinite(moment) & (moment != 0)).any() else ("displacement_m", "force_n")
-    pictures = []
+    pictures, of_triangle = [], numpy.isfinite(table["strain_ratio"]).any()
     if table.rows:
-        compared = _compared(table, [displacement, load, *(["strain_ratio"] if "strain_ratio" in table else [])])
+        compared = load if "shear_by_hand_n" in table else "strain_ratio" if of_triangle else displacement
         draws = [partial(bond_paths, table=table, displacement=displacement, load=load, compared=compared)]
-        draws += [partial(strain_ratios, table=table)] if compared == "strain_ratio" else []
+        draws += [partial(strain_ratios, table=table)] if of_triangle else []
         pictures = [chart("bonds", "Load over displacement of each run. Dashed, or diamonds: the closed form.", *draws, heights=3.2)]
     else:
         remarks.append("bonds.csv has no row: there is nothing to draw")
     keys = ("stiffness_ratio", "stiffness", "stiffness_by_hand", "break_load", "break_load_by_hand", "largest_difference")
-    rows = [[str(k + 1), *(words.digits(value) for value in (number_in(run, "modulus_pa") * GPA, *(number_in(run, key) for key in keys)))]
+    rows = [[str(k + 1), *(digits(value) for value in (number_in(run, "modulus_pa") * GPA, *(number_in(run, key) for key in keys)))]
             for k, run in enumerate(summary.get("runs", []))]
     header = ["run", "modulus (GPa)", "stiffness ratio", "stiffness", "closed form", "break load", "closed form", "difference"]
     note = "Stiffness and load in SI units; moments over rotations where the bond is bent or twisted. Difference: the largest."
-    figures = Table(header, rows, "", note)
-    return Section("Load and displacement", pictures, [figures] if rows else [])
+    return [Section("Load and displacement", pictures, [Table(header, rows, "", note)])]
 
 
 # ---- bars
@@ -173,18 +160,17 @@ def oscillations(axes, history, load, column, title, factor, static):
     axes.plot(time, history[column][rows] * factor, color=BLUE, label=f"{load}, free end")
     if math.isfinite(static):
         axes.axhline(static * factor, color=VERMILION, ls="--", label=f"under the load, strength of materials: {static * factor:.4g}")
-    axes.set(xlabel="Time since the load was removed (ms)", ylabel=title)
-    legend_over(axes, 2)
+    titled(axes, "Time since the load was removed (ms)", title, 2)
 
 
 def _bar(folder, summary, remarks):
     found = [(name, unit, number_in(summary, key) * factor, number_in(summary, theory) * factor or math.nan)
              for name, key, theory, factor, unit in BAR if math.isfinite(number_in(summary, key))]
-    rows = [[name, unit, *map(words.digits, (value, theory, value / theory))] for name, unit, value, theory in found]
+    rows = [[name, unit, *map(digits, (value, theory, value / theory))] for name, unit, value, theory in found]
     both = [(name, value / theory) for name, _, value, theory in found if math.isfinite(theory)]
     pictures = [chart("bar", "Measured value over that of strength of materials for the same bar, and by how much they differ.",
-                      partial(bars, names=[name for name, _ in both], values=[100 * (ratio - 1) for _, ratio in both],
-                              texts=[f"{ratio:.4g}" for _, ratio in both], title="Measured against strength of materials (%)", mark=0),
+                      bars, names=[name for name, _ in both], values=[100 * (ratio - 1) for _, ratio in both],
+                      texts=[f"{ratio:.4g}" for _, ratio in both], title="Measured against strength of materials (%)", mark=0,
                       heights=0.32 * len(both) + 0.2, margin=1.9)] if both else []
     if (folder / "history.csv").exists():
         history = read_table(folder / "history.csv")
@@ -201,20 +187,111 @@ def _bar(folder, summary, remarks):
         remarks.append("history.csv is not there: no picture of how the bar oscillates")
     if not pictures:
         remarks.append("neither summary.json nor history.csv has a load: there is nothing to draw")
-    figures = Table(["figure", "unit", "measured", "strength of materials", "ratio"], rows)
-    return Section("Comparison with strength of materials", pictures, [figures] if rows else [])
+    table = Table(["figure", "unit", "measured", "strength of materials", "ratio"], rows)
+    return [Section("Comparison with strength of materials", pictures, [table])]
 
 
+# ---- calibrations
+def _named(key, value):
+    """Words of a key of a summary with a unit, and its factor from SI."""
+    unit, factor = ("degrees", 180 / math.pi) if key.endswith("_rad") else ("", 1)
+    if key.endswith("_pa"):
+        unit, factor = ("GPa", GPA) if abs(value) >= 1e9 else ("MPa", MPA)
+    return with_unit(words_of_key(key.removesuffix("_rad")), unit), factor
+
+
+def ratios(axes, targets):
+    """Calibrated values over their targets, with the scatter of packings; grey: the tolerance."""
+    for row, target in enumerate(targets):
+        tolerance, label = number_in(target, "tolerance"), row == 0
+        axes.barh(row, 2 * tolerance, 0.8, 1 - tolerance, color=PALE, zorder=0, label="tolerance" if label else None)
+        for k, (of, (_, name, colour)) in enumerate(zip(target["spreads"], JUDGED)):
+            mean, low, high, y = *(value / target["value"] for value in of[:3]), row - 0.15 + 0.3 * k
+            axes.errorbar(mean, y, None, [[mean - low], [high - mean]], MARKS[k], color=colour, capsize=3, label=name if label else None)
+            if math.isfinite(mean):
+                axes.annotate(f"{mean:.3f}", (high, y), (5, 0), textcoords="offset points", va="center", fontsize=8)
+    axes.axvline(1, color=BLACK, lw=1)
+    axes.margins(x=0.1)
+    axes.set(xlabel="Calibrated value over target", ylim=(len(targets) - 0.4, -0.6))
+    axes.set_yticks(range(len(targets)), [words_of_key(target["key"]) for target in targets])
+    axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=3)
+
+
+def curve(axes, table):
+    """Stress over strain of curve.csv, from rest: the target, the mean of the packings calibrated on, that of unseen ones."""
+    gauge = "strain_gauge" in table
+    for column, name, colour, line in (("calibrated_pa", JUDGED[0][1], BLUE, "-"), ("unseen_pa", JUDGED[1][1], VERMILION, "-"),
+                                       ("wanted_pa", "target", BLACK, "--")):
+        strain = table["strain_gauge" if gauge else "strain_platen"]
+        axes.plot(numpy.r_[0, strain] * MM, numpy.r_[0, table[column]] * MPA, color=colour, ls=line, label=name)
+    titled(axes, f"Axial strain {'of the gauge' if gauge else 'between platens'} (mm/m)", "Axial stress (MPa)", 3)
+
+
+def abacus(axes, rows, key, title):
+    """A figure of the specimen over the first parameter of its bonds that was varied, a curve for each choice of the others; a
+    modulus over that of the bonds. rows: as in the summary."""
+    x, *others = [one for one in VARIED if len({row[one] for row in rows}) > 1] or VARIED[-1:]
+    curves = {}
+    for row in rows:
+        name = ", ".join(f"{words_of_key(one)} {row[one]:.4g}" for one in others if one != "bond_modulus_pa")
+        curves.setdefault(name, {})[row[x]] = number_in(row, key) / (row["bond_modulus_pa"] if key.endswith("_pa") else 1)
+    for k, (name, values) in enumerate(curves.items()):
+        axes.plot(list(values), list(values.values()), MARKS[k % len(MARKS)] + "-", color=CYCLE[k % len(CYCLE)], label=name or None)
+    titled(axes, words_of_key(x).capitalize(), title, 2)
+
+
+def _section_of_targets(summary, remarks):
+    rows, drawn, found = [], [], []
+    for target in summary["targets"]:
+        name, factor = _named(target["key"], target["wanted"])
+        target["value"], is_curve = target["wanted"] * factor, target.get("kind") == "curve"
+        target["spreads"] = spreads = [over_packings(target[key], factor) if key in target else Spread() for key, *_ in JUDGED]
+        misses = [number_in(target, key + "_miss") if is_curve else math.nan for key, *_ in JUDGED]
+        rows.append([name, "the curve" if is_curve else digits(target["value"]),
+                     *(of.words(".4g", 0) if math.isnan(miss) else f"off by {100 * miss:.4g} %" for of, miss in zip(spreads, misses)),
+                     f"{100 * number_in(target, 'tolerance'):.3g} %", "yes" if target.get("met", target["met_in_training"]) else "no"])
+        drawn += [target] if target["wanted"] and any(math.isfinite(of.mean) for of in spreads) else []
+    tables = [Table(["target", "value", *(name for _, name, _ in JUDGED), "tolerance", "met"], rows, "Targets and calibrated values",
+                    "In brackets: how many packings. +-: standard deviation; ...: range of fewer than five. A curve is off by the root "
+                    "mean square over its largest stress.")]
+    for key, value in summary.get("found", {}).items():
+        name, factor = _named(key, value or 0)
+        found += [[name, digits(value, factor)]] if value is not None else []
+    tables.append(Table(["parameter of the bonds", "calibrated value"], found))
+    remarks += [] if drawn else ["summary.json has no value of a target: there is no picture of them"]
+    caption = ("Each calibrated value over its target, mean of the packings with their scatter (standard deviation, of fewer than five "
+               "packings their range). Grey: the tolerance.")
+    picture = chart("targets", caption, ratios, targets=drawn, heights=0.4 + 0.5 * len(drawn), margin=1.9, titles=True)
+    return Section("Targets and calibrated values", [picture] if drawn else [], tables)
+
+
+def _calibration(folder, summary, remarks):
+    sections, curves = [], []
+    remarks += [f"{how}: {line}" for key, how in FINDINGS for line in summary.get(key, [])]
+    if "targets" in summary:
+        sections.append(_section_of_targets(summary, remarks))
+    if summary.get("abacus"):
+        draws = [partial(abacus, key=key, title=title) for key, title in (
+            ("youngs_modulus_gauge_pa", "Young's modulus over that of the bonds"), ("poisson_ratio", "Poisson's ratio"))]
+        caption = "Moduli of the specimen over the parameters of its bonds, mean of the packings."
+        sections.append(Section("Abacus", [chart("abacus", caption, *draws, rows=summary["abacus"], heights=2.8, shared=True)]))
+    for file in sorted(folder.glob("curve*.csv"), key=lambda file: (len(file.name), file.name)):
+        table = table_with(file, "wanted_pa", "calibrated_pa", "unseen_pa")
+        table_with(file, "strain_gauge" if "strain_gauge" in table else "strain_platen")
+        caption = "Dashed: the target curve. Blue: mean of the packings calibrated on. Red: mean of unseen packings."
+        curves.append(chart(file.stem, caption, curve, table=table, heights=3.2))
+    return [*sections, Section("Curves", curves)]
+
+
+# ---- pages
 def page_of(folder):
-    """The Page of a packing, a bond test or a bar, None of another folder. InputError where a file is missing or damaged."""
-    folder = Path(folder)
-    results = words.results_in(folder)
-    summary = results.info
+    """The Page of a packing, a bond test, a bar or a calibration, None of another folder. InputError where a file is missing or damaged."""
+    results, remarks = Results(folder), []
+    folder, summary = results.folder, results.info
     app = summary.get("app", "platen-pack" if (folder / "specimen.csv").exists() and not (folder / "history.csv").exists() else "")
-    made = {"platen-pack": (_pack, "specimen.csv"), "platen-bonds": (_bonds, "summary.json"), "platen-bar": (_bar, "summary.json")}.get(app)
+    made, file = {"platen-pack": (_pack, "specimen.csv"), "platen-bonds": (_bonds, "summary.json"), "platen-bar": (_bar, "summary.json"),
+                  "platen-calibrate": (_calibration, "summary.json")}.get(app, (None, ""))
     if made is None:
         return None
-    remarks, (leads, head) = [], words.head([results])
-    with reading(folder / made[1]):
-        section = made[0](folder, summary, remarks)
-    return Page(words.true_title(results), leads, head, [section], remarks)
+    with reading(folder / file):
+        return Page(true_title(results), *head([results]), made(folder, summary, remarks), remarks)

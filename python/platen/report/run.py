@@ -1,24 +1,31 @@
-"""A run as a test: its moments (the peak, the fall to 0.8 of it, the end), strains from the end of consolidation, its spheres."""
+"""What stands in folders of results. A run as a test: its moments (the peak, the fall to 0.8 of it, the end), strains from the end of
+consolidation, its spheres."""
 import math
 import re
-from functools import lru_cache
+from collections import namedtuple
+from contextlib import contextmanager
+from functools import cached_property, lru_cache
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy
 
 from ..errors import InputError
-from ..results import Run
+from ..results import Run, read_json, read_table
 
 # Columns of stress and strain along x, y, z; of the low platen first.
 STRESS = (("stress_left_pa", "stress_right_pa"), ("stress_front_pa", "stress_back_pa"), ("axial_stress_bottom_pa", "axial_stress_top_pa"))
 STRAIN = ("strain_x", "strain_y", "axial_strain_platen")
-SIDES = ("bottom", "top", "left", "right", "front", "back")
 _PREFIX = {"": 1, "p": 1e-12, "n": 1e-9, "u": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6, "G": 1e9, "T": 1e12}
 _UNIT = {"m": 1, "s": 1, "N": 1, "Pa": 1, "J": 1, "rad": 1, "bar": 1e5, "g": 1e-3, "psi": 6894.757293168361}
 _WHOLE = {"%": 0.01, "percent": 0.01, "degree": math.pi / 180, "deg": math.pi / 180, "min": 60, "h": 3600, "t": 1e3, "inch": 0.0254, "": 1}
+# What a page lacks where a file of a run is not there.
+_WITHOUT = {"summary.json": " (the run has not finished): its figures are left out", "cracks.csv": ": no pictures of broken bonds",
+            "specimen.pvd": ": no pictures of the specimen", "platens.pvd": ": pictures are drawn without platens",
+            "bonds.pvd": ": crack density is given per volume, not as a share of the bonds",
+            "contacts.pvd": ": no pictures of what presses on the platens"}
 
 
+# ---- texts and numbers of scenes and summaries
 def unit_factor(unit):
     """From a unit of a scene ("MPa", "kN/mm2") to SI; None where it is none."""
     factor = 1.0
@@ -46,13 +53,16 @@ def number_in(summary, path):
     return float(summary) if isinstance(summary, (int, float)) and not isinstance(summary, bool) else math.nan
 
 
+def listed(summary, key, kind=dict):
+    """What of a kind a list of a summary holds; [] where it has none."""
+    found = summary.get(key) if isinstance(summary, dict) else None
+    return [one for one in found if isinstance(one, kind)] if isinstance(found, list) else []
+
+
 def scene_entries(folder):
     """{"Platens/Top/Surface": "dry", ...} of the scene.prm of a folder of results; {} where it is not there."""
-    entries, sections = {}, []
-    path = Path(folder) / "scene.prm"
-    if not path.is_file():
-        return entries
-    for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
+    entries, sections, path = {}, [], Path(folder) / "scene.prm"
+    for line in path.read_text(encoding="utf-8", errors="replace").splitlines() if path.is_file() else []:
         word, _, rest = line.split("#")[0].strip().partition(" ")
         if word == "subsection":
             sections.append(rest.strip())
@@ -64,19 +74,83 @@ def scene_entries(folder):
     return entries
 
 
-class Spheres(NamedTuple):
-    """A frame of the specimen as columns, by sphere. initial: before the test. fragment: 0 the largest; moves_with: since the
-    peak, with the platen 1 bottom, 2 top, 0 neither; both None where the frame does not have it."""
+# ---- files
+@contextmanager
+def reading(file):
+    """InputError with the file where something that is read from it is not there, or is of another kind."""
+    try:
+        yield
+    except InputError:
+        raise
+    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
+        lacks = f"no {error.args[0]}" if isinstance(error, KeyError) else error
+        raise InputError(f"{file}: damaged: {lacks}") from None
 
-    time: float
-    position: numpy.ndarray  # n x 3, m
-    initial: numpy.ndarray  # n x 3, m
-    radius: numpy.ndarray  # m
-    intact: numpy.ndarray  # bonds, counted for both their spheres
-    broken: numpy.ndarray
-    fragment: object
-    moves_with: object
-    fields: dict  # all point data
+
+def table_with(path, *columns):
+    """The Table of a CSV file. InputError where it lacks one of the columns, or one holds something else than numbers."""
+    table = read_table(path)
+    for column in columns:
+        if column not in table:
+            raise InputError(f"{path}: no column {column}")
+        if table[column].dtype.kind != "f":
+            raise InputError(f"{path}: column {column} holds something else than numbers")
+    return table
+
+
+def point_data(grid, where, **widths):
+    """Arrays of a vtu.Grid by name; widths: numbers a point. InputError, of the file `where`, for one that is not there so."""
+    found = []
+    for name, width in widths.items():
+        array, shape = grid.point_data.get(name), (len(grid.points), width)[: 1 + (width > 1)]
+        if array is None and len(grid.points) == 0:
+            array = numpy.zeros(shape)
+        if array is None or array.shape != shape:
+            raise InputError(f"{where}: a frame has no point data {name!r} of {width} components")
+        found.append(array)
+    return found
+
+
+def nearest(values, wanted):
+    """Number of the value nearest to what is wanted."""
+    return int(numpy.abs(values - wanted).argmin())
+
+
+def rows_of(numbers, wanted):
+    """(rows, known): where each wanted number stands among the numbers, and whether it does."""
+    order = numpy.argsort(numbers)
+    rows = order[numpy.searchsorted(numbers, wanted, sorter=order).clip(0, len(order) - 1)]
+    return rows, numbers[rows] == wanted
+
+
+class Results:
+    """A folder of results of any program. name: of the folder; info: summary.json ({} where it is not there); entries: of its scene.prm;
+    mean_radius: of the spheres (m), NaN where nothing says it. InputError where a file is damaged, or something else has its name."""
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        self.name = self.folder.resolve().name
+        for file in ("summary.json", "scene.prm"):
+            _refuse_what_is_no_file(self.folder / file)
+        path = self.folder / "summary.json"
+        self.info = read_json(path) if path.is_file() else {}
+        self.entries, self.mean_radius = scene_entries(folder), number_in(self.info, "mean_radius_m")
+
+    def entry(self, path):
+        """Text of an entry of scene.prm; "" where it has none."""
+        return self.entries.get(path, "")
+
+
+def _refuse_what_is_no_file(path):
+    if path.exists() and not path.is_file():
+        raise InputError(f"{path}: is no file")
+
+
+# ---- a run
+class Spheres(namedtuple("Spheres", "time position initial radius intact broken fragment moves_with fields")):
+    """A frame of the specimen as columns, by sphere. position, initial (before the test): n x 3, m; radius: m; intact, broken: bonds,
+    counted for both their spheres; fragment: 0 the largest; moves_with: since the peak, with the platen 1 bottom, 2 top, 0 neither;
+    None where no platen moves spheres; fields: all point data."""
 
     @property
     def displacement(self):
@@ -95,19 +169,18 @@ class Spheres(NamedTuple):
         return numpy.divide(self.broken, total, out=numpy.zeros(len(total)), where=total > 0)
 
 
-class Extent(NamedTuple):
+class Extent(namedtuple("Extent", "form half_width half_depth bottom top")):
     """Size of the specimen before the test, spheres' radii included (m). form: cylinder, box, or disc, which lies with its axis
     along y and is pressed across it."""
-
-    form: str
-    half_width: float
-    half_depth: float
-    bottom: float
-    top: float
 
     @property
     def height(self):
         return self.top - self.bottom
+
+    @property
+    def corners(self):
+        """Low and high one, 2 x 3, m."""
+        return numpy.array([[-self.half_width, -self.half_depth, self.bottom], [self.half_width, self.half_depth, self.top]])
 
     @property
     def is_plane(self):
@@ -115,30 +188,55 @@ class Extent(NamedTuple):
         return self.form == "disc" or (self.form == "box" and self.half_width > 1.5 * self.half_depth)
 
 
-class TestRun(Run):
-    """A platen.Run with the moments of its test. All times in s, stresses in Pa, strains as fractions, compression positive."""
+def is_round(reach, a, b):
+    """Whether what reaches so far from its middle is a circle: with filled corners it would be up to sqrt(2) half widths a, b."""
+    return max(reach, a, b) < 1.15 * min(a, b)
+
+
+def extent_of(spheres):
+    """The Extent of Spheres before the test."""
+    x, y, z = spheres.initial.T
+    width, depth = (float((numpy.abs(across) + spheres.radius).max()) for across in (x, y))
+    bottom, top = float((z - spheres.radius).min()), float((z + spheres.radius).max())
+    middle, half = (bottom + top) / 2, (top - bottom) / 2
+    form = ("cylinder" if is_round((numpy.hypot(x, y) + spheres.radius).max(), width, depth) else
+            "disc" if is_round((numpy.hypot(x, z - middle) + spheres.radius).max(), width, half) else "box")
+    return Extent(form, width, depth, bottom, top)
+
+
+class TestRun(Run, Results):
+    """A platen.Run as a test. All times in s, stresses in Pa, strains as fractions, compression positive.
+
+    h: its history. axis: that is loaded, 0 ... 2; strain: between the platens along it, one a row. zero: the row at the end of
+    consolidation, from which strains count; rows: from it on. peak_row, peak_time, peak_stress; peak_reached: whether it went over
+    its peak, None where the summary does not say. fall_time: of the fall to 0.8 of the peak, None where it did not come. end_time.
+    pattern_time, pattern_words: when the crack pattern is judged, at the fall, or at the end. remarks: what its files lack.
+    """
 
     __test__ = False  # no test of pytest
+    peak_time = math.nan  # no property as that of a Run
 
     def __init__(self, folder):
-        super().__init__(folder)
-        for name in ("history.csv", "summary.json", "cracks.csv", "events.csv", "scene.prm", *(s + ".pvd" for s in self._series)):
-            path = self.folder / name
-            if path.exists() and not path.is_file():
-                raise InputError(f"{path}: is no file")
+        Run.__init__(self, folder)
+        for name in ("history.csv", "cracks.csv", "events.csv", *(series + ".pvd" for series in self._series)):
+            _refuse_what_is_no_file(self.folder / name)
         if not (self.folder / "history.csv").is_file():
             raise InputError(f"{self.folder}: no output folder of a run, it has no history.csv")
-        self.h, self.remarks = self.history, []
-        self.info = self.summary if (self.folder / "summary.json").is_file() else {}
-        self.entries = scene_entries(self.folder)
-        self.name = self.folder.resolve().name
-        word = self.info.get("loaded_axis")
-        self.axis = "xyz".index(word) if word in ("x", "y") else 2
+        Results.__init__(self, self.folder)
+        self.h, self.remarks, self.peak_reached = self.history, [], self.info.get("peak_reached")
+        self.axis = "xyz".find(str(self.info.get("loaded_axis", "z")))
         self._take_moments()
-        self.zero = self._zero_row()
-        self._note_what_is_missing()
+        self.strain, self.strain_origin = self.since(STRAIN[self.axis]), " from the end of consolidation" if self.zero > 0 else ""
+        stress, strain = (f"Axial {of}" if self.axis == 2 else f"{of.capitalize()} along {'xyz'[self.axis]}" for of in ("stress", "strain"))
+        self.stress_title, self.strain_title = f"{stress} (MPa)", f"{strain} between platens{self.strain_origin} (mm/m)"
+        for file, without in _WITHOUT.items():
+            if not (self.folder / file).is_file():
+                self.remarks.append(f"{file} is not there{without}")
+            elif file.endswith(".pvd") and self.series(file.removesuffix(".pvd")) is None:
+                self.remarks.append(f"{file} lists no frame{without}")
+        if math.isnan(self.mean_radius) and self.series("specimen"):
+            self.mean_radius = float(self.start.radius.mean())
 
-    # ---- moments
     def _take_moments(self):
         stress, time = self.stress, self.h["time_s"]
         finite = numpy.isfinite(stress)
@@ -147,57 +245,31 @@ class TestRun(Run):
         if not finite.all():
             self.remarks.append(f"history.csv has {(~finite).sum()} of {len(stress)} rows without a stress, the first at the time "
                                 f"{time[~finite][0]:.6g} s: the largest may be one of them")
-        self.peak_row = int(numpy.abs(numpy.where(finite, stress, 0)).argmax())
-        told = number_in(self.info, "peak_time_s")
-        if math.isfinite(told):
-            self.peak_row = self.row_at(told)
-        self.peak_stress, self.end_time = float(stress[self.peak_row]), float(time[-1])
-        self.fall_time = self._fall(stress, time)
-        if "fall_time_s" in self.info:
-            told = number_in(self.info, "fall_time_s")
-            self.fall_time = told if math.isfinite(told) else None
+        self.zero = self._told_row("consolidation_end_time_s", 0)
+        self.rows = slice(self.zero, None)
+        self.peak_row = self._told_row("peak_time_s", int(numpy.abs(numpy.where(finite, stress, 0)).argmax()))
+        self.peak_time, self.peak_stress, self.end_time = float(time[self.peak_row]), float(stress[self.peak_row]), float(time[-1])
+        told = number_in(self.info, "fall_time_s") if "fall_time_s" in self.info else self._fall(stress, time)
+        self.fall_time, self.pattern_time, self.pattern_words = told, told, "the fall to 0.8 of the peak"
+        if math.isnan(told):
+            self.fall_time, self.pattern_time, self.pattern_words = None, self.end_time, "the end"
+            self.remarks.append("the stress did not fall to 0.8 of the peak: crack patterns are shown at the end")
 
     def _fall(self, stress, time):
-        """s, interpolated; None where the stress never fell to 0.8 of the peak."""
-        sign, limit = (-1 if self.peak_stress < 0 else 1), 0.8 * abs(self.peak_stress)
-        for k in range(self.peak_row + 1, len(stress)):
-            before, now = sign * stress[k - 1], sign * stress[k]
-            if now <= limit < before:
-                return float(time[k - 1] + (time[k] - time[k - 1]) * (before - limit) / (before - now))
-        return None
+        """s, interpolated; NaN where the stress never fell to 0.8 of the peak."""
+        size, limit = stress * math.copysign(1, self.peak_stress), 0.8 * abs(self.peak_stress)
+        fallen = numpy.flatnonzero((size[1:] <= limit) & (size[:-1] > limit))
+        for k in fallen[fallen >= self.peak_row][:1]:
+            return float(time[k] + (time[k + 1] - time[k]) * (size[k] - limit) / (size[k] - size[k + 1]))
+        return math.nan
 
-    def row_at(self, time):
-        """The last row of the history up to a time."""
-        return max(0, int(numpy.searchsorted(self.h["time_s"], time * (1 + 1e-9), side="right")) - 1)
+    def _told_row(self, key, otherwise):
+        """The last row of the history up to a time that the summary tells."""
+        told = number_in(self.info, key)
+        if not math.isfinite(told):
+            return otherwise
+        return max(0, int(numpy.searchsorted(self.h["time_s"], told * (1 + 1e-9), side="right")) - 1)
 
-    def _zero_row(self):
-        told = number_in(self.info, "consolidation_end_time_s")
-        return self.row_at(told) if math.isfinite(told) else 0
-
-    @property
-    def stress(self):
-        low, high = STRESS[self.axis]
-        return 0.5 * (self.h[low] + self.h[high])
-
-    @property
-    def peak_time(self):
-        return float(self.h["time_s"][self.peak_row])
-
-    @property
-    def pattern_time(self):
-        """When the crack pattern is judged: the fall to 0.8 of the peak, or the end where it did not come."""
-        return self.end_time if self.fall_time is None else self.fall_time
-
-    @property
-    def pattern_words(self):
-        return "the end" if self.fall_time is None else "the fall to 0.8 of the peak"
-
-    @property
-    def peak_reached(self):
-        """Whether the run went over its peak; None where the summary does not say."""
-        return self.info.get("peak_reached")
-
-    # ---- curves
     def has(self, *columns):
         return all(column in self.h for column in columns)
 
@@ -205,47 +277,22 @@ class TestRun(Run):
         """A column less what it was at the end of consolidation."""
         return self.h[column] - self.h[column][self.zero]
 
-    @property
-    def strain(self):
-        """Of the platens along the loaded axis, from the end of consolidation; one a row of the history."""
-        return self.since(STRAIN[self.axis])
-
-    @property
-    def rows(self):
-        """From the end of consolidation on."""
-        return slice(self.zero, None)
-
-    @property
-    def stress_title(self):
-        return "Axial stress (MPa)" if self.axis == 2 else f"Stress along {'xyz'[self.axis]} (MPa)"
-
-    @property
-    def strain_title(self):
-        along = "Axial strain" if self.axis == 2 else f"Strain along {'xyz'[self.axis]}"
-        return f"{along} between platens{self.strain_origin} (mm/m)"
-
-    @property
-    def strain_origin(self):
-        return " from the end of consolidation" if self.zero > 0 else ""
-
-    # ---- scene and files
-    def entry(self, path):
-        """Text of an entry of scene.prm; "" where it has none."""
-        return self.entries.get(path, "")
-
-    def number(self, path):
-        """SI, of an entry of scene.prm; NaN where it is empty or no number."""
-        return number_with_unit(self.entry(path)) if self.entry(path) else math.nan
-
     def series(self, name):
         """Frames of specimen, bonds, platens, contacts, sleeve; None where the run wrote none."""
-        path = self.folder / f"{name}.pvd"
-        frames = getattr(self, name) if path.is_file() else None
-        return frames if frames is not None and len(frames) else None
+        return (getattr(self, name) or None) if (self.folder / f"{name}.pvd").is_file() else None
 
     def table(self, name):
         """cracks, events; None where the run wrote none."""
         return getattr(self, name) if (self.folder / self._tables[name]).is_file() else None
+
+    def read_all(self):
+        """Reads the frames that pictures are drawn of. InputError where one is damaged."""
+        for name in ("cracks", "events"):
+            self.table(name)
+        for time in (0.0, self.peak_time, self.pattern_time, self.end_time) if self.series("specimen") else ():
+            self.spheres(time)
+        if self.series("contacts"):
+            self.grid("contacts", self.peak_time)
 
     @lru_cache(maxsize=64)
     def grid(self, series, time):
@@ -256,59 +303,18 @@ class TestRun(Run):
     def spheres(self, time):
         """Spheres of the frame nearest to a time. InputError where a field is missing."""
         frames = self.series("specimen")
-        at = float(frames.times[int(numpy.abs(frames.times - time).argmin())])
+        at = float(frames.times[nearest(frames.times, time)])
         grid = self.grid("specimen", at)
-        fields = grid.point_data
-        lacking = [name for name in ("displacement", "radius", "intact_bonds", "broken_bonds") if name not in fields]
-        if lacking:
-            raise InputError(f"{frames.path}: a frame has no {lacking[0]}")
-        return Spheres(at, grid.points, grid.points - fields["displacement"], fields["radius"], fields["intact_bonds"].astype(float),
-                       fields["broken_bonds"].astype(float), fields.get("fragment"), fields.get("moves_with"), fields)
+        moved, radius, intact, broken, fragment = point_data(grid, frames.path, displacement=3, radius=1, intact_bonds=1, broken_bonds=1,
+                                                             fragment=1)
+        return Spheres(at, grid.points, grid.points - moved, radius, intact.astype(float), broken.astype(float), fragment.astype(int),
+                       grid.point_data.get("moves_with"), grid.point_data)
 
     @property
     def start(self):
         """Spheres before the test."""
         return self.spheres(0.0)
 
-    @property
+    @cached_property
     def extent(self):
-        return _extent(self)
-
-    @property
-    def mean_radius(self):
-        """m; NaN where nothing says it."""
-        told = number_in(self.info, "mean_radius_m")
-        return told if math.isfinite(told) or self.series("specimen") is None else float(self.start.radius.mean())
-
-    def _note_what_is_missing(self):
-        if self.fall_time is None:
-            self.remarks.append("the stress did not fall to 0.8 of the peak: crack patterns are shown at the end")
-        if not self.info:
-            self.remarks.append("summary.json is not there (the run has not finished): its figures are left out")
-        if not (self.folder / "cracks.csv").is_file():
-            self.remarks.append("cracks.csv is not there: no pictures of broken bonds")
-        for name, without in (("specimen", "no pictures of the specimen"), ("platens", "pictures are drawn without platens"),
-                              ("bonds", "crack density is given per volume, not as a share of the bonds"),
-                              ("contacts", "no pictures of what presses on the platens")):
-            path = self.folder / f"{name}.pvd"
-            if not path.is_file():
-                self.remarks.append(f"{name}.pvd is not there: {without}")
-            elif self.series(name) is None:
-                self.remarks.append(f"{name}.pvd lists no frame: {without}")
-
-
-@lru_cache(maxsize=32)
-def _extent(run):
-    place, radius = run.start.initial, run.start.radius
-    width, depth = (numpy.abs(place[:, :2]) + radius[:, None]).max(0)
-    bottom, top = float((place[:, 2] - radius).min()), float((place[:, 2] + radius).max())
-
-    def is_circle(x, y, a, b):
-        """In a box the corners are filled: the reach is up to sqrt(2) half widths, in a circle it is one."""
-        reach = (numpy.hypot(x, y) + radius).max()
-        return reach < 1.15 * min(a, b) and max(a, b) < 1.15 * min(a, b)
-
-    form = "cylinder" if is_circle(place[:, 0], place[:, 1], width, depth) else (
-        "disc" if is_circle(place[:, 0], place[:, 2] - (bottom + top) / 2, width, (top - bottom) / 2) else "box")
-    return Extent(form, float(width), float(depth), bottom, top)
-
+        return extent_of(self.start)

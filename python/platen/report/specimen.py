@@ -1,23 +1,23 @@
 """The specimen, whole or cut at y = 0: displacement, damage, what moves with each platen with the cones fitted to it, fragments;
-halves of several runs side by side."""
+halves of several runs side by side. The rubber sleeve around it, beside the half specimen and its inner face unrolled."""
 import math
+from collections import namedtuple
 from functools import partial
-from typing import NamedTuple
 
-import matplotlib
 import numpy
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize, to_rgb
 from matplotlib.ticker import MaxNLocator
 
-from .house import BLACK, BLUE, GREEN, MM, ORANGE, PURPLE, SKY, VERMILION, colour_bar
-from .kit import reading
-from .run import number_in
-from .spheres import DAMAGE, HALO, RUBBER, Scene, panels, seen
+from ..errors import InputError
+from .house import BLACK, BLUE, GREEN, MM, MPA, ORANGE, PURPLE, SKY, VERMILION, VIRIDIS, Picture, colour_bar
+from .platens import has_further_sides
+from .run import number_in, point_data, reading
+from .spheres import DAMAGE, FACES, HALO, RUBBER, Scene, hexahedra, panels, seen
 
-VIRIDIS = matplotlib.colormaps["viridis"]
-PALE = "#e1e1e1"
-FRAGMENTS = numpy.array([to_rgb(c) for c in (PALE, GREEN, PURPLE, SKY, "#f0e442", VERMILION, "#8c564b", BLACK)])
-WITH_PLATENS = numpy.array([to_rgb(c) for c in (PALE, BLUE, ORANGE)])
+FRAGMENTS = numpy.array([to_rgb(c) for c in ("#e1e1e1", GREEN, PURPLE, SKY, "#f0e442", VERMILION, "#8c564b", BLACK)])
+WITH_PLATENS = numpy.array([to_rgb(c) for c in ("#e1e1e1", BLUE, ORANGE)])
 SMALLEST = 30  # spheres of a fragment that has a colour
 _DAMAGE = "coloured by the broken share of the bonds of each sphere. Grey: no bond is broken."
 _FRAGMENTS = (f"Each colour is a fragment of {SMALLEST} or more spheres that intact bonds hold together; green is the largest. Grey: "
@@ -42,17 +42,17 @@ def top_of(values):
 
 def fragment_colours(spheres):
     """Row of FRAGMENTS of each sphere: 0 for those of small fragments and of all but the seven largest."""
-    count = numpy.bincount(spheres.fragment.astype(int))
-    return numpy.where((spheres.fragment < len(FRAGMENTS) - 1) & (count >= SMALLEST)[spheres.fragment.astype(int)], spheres.fragment + 1, 0)
+    number = spheres.fragment
+    return numpy.where((number < len(FRAGMENTS) - 1) & (numpy.bincount(number) >= SMALLEST)[number], number + 1, 0)
 
 
 def draw(axes, run, time, colours, title="", whole=False, sleeve=False, turn=numpy.eye(3), **room):
     """The specimen, the platens and a sleeve at a time, cut at y = 0 or whole; colours: n x 3, one a sphere. Returns the Scene."""
     spheres, scene = run.spheres(time), Scene(axes, run.extent, **room)
-    rows = numpy.arange(len(spheres.radius)) if whole else half(spheres, turn)
+    rows = slice(None) if whole else half(spheres, turn)
     scene.spheres(spheres.position[rows] @ turn.T, spheres.radius[rows], colours[rows])
     if run.series("platens"):
-        before = 0 if not whole else 0.9 * run.extent.half_depth if _is_held_aside(run) else math.inf
+        before = 0 if not whole else 0.9 * run.extent.half_depth if has_further_sides(run) else math.inf
         scene.bodies(run.grid("platens", time), run.folder / "platens.pvd", before=before, turn=turn)
     if sleeve:
         scene.bodies(run.grid("sleeve", time), run.folder / "sleeve.pvd", RUBBER, 0)
@@ -61,14 +61,8 @@ def draw(axes, run, time, colours, title="", whole=False, sleeve=False, turn=num
     return scene
 
 
-def _is_held_aside(run):
-    """Whether platens stand at the sides of a box."""
-    return any(run.has(f"stress_{side}_pa") for side in ("left", "front"))
-
-
 def field(axes, run, time, values, label, title="", norm=None, colours=VIRIDIS, bar=False, **more):
-    """Coloured by values, one a sphere: in a scale of this panel, which stands below it, or in that of a norm, at the right with
-    `bar`."""
+    """Coloured by values, one a sphere: in a scale of this panel, which stands below it, or in that of a norm, at the right with `bar`."""
     if norm is not None:
         draw(axes, run, time, colours(norm(values))[:, :3], title, **more)
         if bar:
@@ -81,7 +75,7 @@ def field(axes, run, time, values, label, title="", norm=None, colours=VIRIDIS, 
     if top == 0:
         axes.text(0.5, 0.02 * inch, f"{label}: not above 0", transform=axes.transAxes, ha="center", va="bottom")
     else:
-        axes.figure.colorbar(matplotlib.cm.ScalarMappable(norm, colours), cax=axes.inset_axes([0.2, 0.32 * inch, 0.6, 0.1 * inch]),
+        axes.figure.colorbar(ScalarMappable(norm, colours), cax=axes.inset_axes([0.2, 0.32 * inch, 0.6, 0.1 * inch]),
                              orientation="horizontal", label=label, extend="max", ticks=MaxNLocator(3))
 
 
@@ -105,14 +99,9 @@ def fragments(axes, run, time, title="", **more):
     draw(axes, run, time, FRAGMENTS[fragment_colours(run.spheres(time))], title, **more)
 
 
-class Cone(NamedTuple):
-    """One that was fitted to what moves with a platen, in the specimen before the test."""
-
-    half_angle: float  # rad
-    confidence: float
-    base: float  # r0, radius at the platen over that of the specimen
-    apex: numpy.ndarray  # m
-    axis: numpy.ndarray  # from the apex towards the platen
+class Cone(namedtuple("Cone", "half_angle confidence base apex axis")):
+    """One that was fitted to what moves with a platen, in the specimen before the test. half_angle: rad; base: r0, radius at the platen
+    over that of the specimen; apex: m, 3; axis: from the apex towards the platen."""
 
     def turned(self, turn):
         return self._replace(apex=turn @ self.apex, axis=turn @ self.axis)
@@ -183,9 +172,7 @@ def cones(axes, run, time, title="", **more):
         base, sign = (extent.top, -1) if end == "top" else (extent.bottom, 1)
         words = "" if cone is None else "no cone"
         if cone:
-            outline = section(cone.turned(turn), base, extent.half_width)
-            moved = turn @ carried(cone, spheres)
-            places = numpy.insert(outline, 1, 0, axis=1) + moved
+            places = numpy.insert(section(cone.turned(turn), base, extent.half_width), 1, 0, axis=1) + turn @ carried(cone, spheres)
             for colour, width in (("white", 3.5), ("black", 1.5)):
                 scene.line(places, color=colour, lw=width)
             names = ("half-angle ", "r0 = ", "confidence\n") if axes.bbox.width > 2.5 * axes.figure.dpi else ("", "", "")
@@ -198,31 +185,27 @@ def cones(axes, run, time, title="", **more):
 def cones_caption(run):
     text = ""
     for final, when in ((False, run.pattern_words), (True, "the end")):
-        both = [(where, cone_of(run, end, final)) for where, end in (("on the top platen", "top"), ("on the bottom platen", "bottom"))]
-        if any(cone is not None for _, cone in both):
-            words = [f"{where} {cone.words if cone else 'not measured' if cone is None else 'none'}" for where, cone in both]
-            text += f" Cones at {when}, half-angles: {', '.join(words)}."
+        both = {end: cone_of(run, end, final) for end in ("top", "bottom")}
+        if any(cone is not None for cone in both.values()):
+            words = {end: cone.words if cone else "not measured" if cone is None else "none" for end, cone in both.items()}
+            text += f" Cones at {when}, half-angles: on the top platen {words['top']}, on the bottom platen {words['bottom']}."
     return ("Half specimen, cut along the axes of the cones. Blue spheres have moved with the bottom platen since the peak, orange "
             f"ones with the top platen.{text} Outlines: the cones fitted to these spheres, at the platen as wide as measured: r0 times the "
             "radius of the specimen.")
 
 
-def _has_cones(run):
-    return run.fall_time is not None and run.spheres(run.end_time).moves_with is not None
-
-
-def _has_fragments(run):
-    return run.start.fragment is not None
-
-
 def _row(name, caption, act, shown, has_bar=False, foot=0.0, **more):
-    """A Picture of act(axes, run, time, title) for each of `shown`, in one size; has_bar: with a scale at the right."""
+    """Pictures: one of act(axes, run, time, title) for each of `shown`, in one size; none of none. has_bar: with a scale at the right."""
+    if act is cones:
+        shown = [one for one in shown if one[0].fall_time is not None and one[0].spheres(one[0].end_time).moves_with is not None]
+    if not shown:
+        return []
     extents = [run.extent for run, _, _ in shown]
-    more["size"] = (max(e.half_width for e in extents), max(e.height for e in extents))
-    draws = [partial(act, run=run, time=time, title=title, **more) for run, time, title in shown]
+    size = max(e.half_width for e in extents), max(e.height for e in extents)
+    draws = [partial(act, run=run, time=time, title=title, size=size, **more) for run, time, title in shown]
     if has_bar:
         draws[-1].keywords["bar"] = True
-    return panels(name, caption, draws, extents, has_bar, foot)
+    return [panels(name, caption, draws, extents, has_bar, foot)]
 
 
 def pictures_of_specimen(run):
@@ -233,40 +216,126 @@ def pictures_of_specimen(run):
     moments = [(run, run.start.time, "before the test"), (run, run.peak_time, "near the peak"), end]
     judged = [end] if run.fall_time is None else [(run, run.fall_time, f"at {run.pattern_words}"), end]
     scales = "Each panel has its own scale. The largest 5 % have the last colour."
-    aside = " The platen in front of it is not drawn." if _is_held_aside(run) else ""
-    pictures = [
-        _row("specimen_outside", f"The specimen from outside, along y and a little from above; x points to the left.{aside} Colours: "
-             f"how far each sphere has moved. {scales}", displacement, moments, foot=FOOT, whole=True),
-        _row("specimen_inside", f"The same specimen cut in half at y = 0. {scales}", displacement, moments, foot=FOOT),
-        _row("outward_displacement", "Half specimen, coloured by how far each sphere has moved away from the "
-             f"{'plane x = 0' if run.extent.is_plane else 'axis'}. Cones stay dark; what they push aside is light. Inward displacement "
-             f"has the colour of 0. {scales}", outward_displacement, judged, foot=FOOT),
-        _row("damage", f"Half specimen, {_DAMAGE}", damage, judged, True)]
-    if _has_cones(run):
-        pictures.append(_row("cones", cones_caption(run), cones, judged))
-    if _has_fragments(run):
-        pictures.append(_row("fragments", f"Half specimen. {_FRAGMENTS}", fragments, judged))
-    return pictures
+    aside = " The platen in front of it is not drawn." if has_further_sides(run) else ""
+    return [
+        *_row("specimen_outside", f"The specimen from outside, along y and a little from above; x points to the left.{aside} Colours: "
+              f"how far each sphere has moved. {scales}", displacement, moments, foot=FOOT, whole=True),
+        *_row("specimen_inside", f"The same specimen cut in half at y = 0. {scales}", displacement, moments, foot=FOOT),
+        *_row("outward_displacement", "Half specimen, coloured by how far each sphere has moved away from the "
+              f"{'plane x = 0' if run.extent.is_plane else 'axis'}. Cones stay dark; what they push aside is light. Inward displacement "
+              f"has the colour of 0. {scales}", outward_displacement, judged, foot=FOOT),
+        *_row("damage", f"Half specimen, {_DAMAGE}", damage, judged, True),
+        *_row("cones", cones_caption(run), cones, judged),
+        *_row("fragments", f"Half specimen. {_FRAGMENTS}", fragments, judged)]
 
 
 def comparison(runs):
     """Pictures of the halves of several runs side by side, in one scale; runs without frames, or without the quantity, are left out."""
     runs = [run for run in runs if run.series("specimen")]
-    if not runs:
-        return []
     end = [(run, run.end_time, run.name) for run in runs]
     judged = [(run, run.pattern_time, run.name + (" (at the end)" if run.fall_time is None else "")) for run in runs]
-    values = numpy.concatenate([outward(run, run.spheres(time))[half(run.spheres(time))] for run, time, _ in end]) * MM
-    pictures = [
-        _row("comparison_displacement", "Half specimens at the end, coloured by outward displacement, all in one scale. What is dark has "
-             "hardly moved outwards. The largest 5 % have the last colour.", outward_displacement, end, True,
-             norm=Normalize(0, top_of(values) or 1)),
-        _row("comparison_damage", f"Half specimens at the fall to 0.8 of the peak, {_DAMAGE}", damage, judged, True)]
-    with_cones, with_fragments = [one for one in judged if _has_cones(one[0])], [one for one in end if _has_fragments(one[0])]
-    if with_cones:
-        pictures.append(_row("comparison_cones", "Half specimens at the fall to 0.8 of the peak. Blue spheres have moved with the bottom "
-                             "platen since the peak, orange ones with the top platen. Outlines: the cones fitted to these spheres. "
-                             "Numbers: half-angle, r0 (radius at the platen over that of the specimen), confidence.", cones, with_cones))
-    if with_fragments:
-        pictures.append(_row("comparison_fragments", f"Half specimens at the end. {_FRAGMENTS}", fragments, with_fragments))
-    return pictures
+    values = [outward(run, run.spheres(time))[half(run.spheres(time))] * MM for run, time, _ in end]
+    return [
+        *_row("comparison_displacement", "Half specimens at the end, coloured by outward displacement, all in one scale. What is dark has "
+              "hardly moved outwards. The largest 5 % have the last colour.", outward_displacement, end, True,
+              norm=Normalize(0, top_of(numpy.concatenate([[], *values])) or 1)),
+        *_row("comparison_damage", f"Half specimens at the fall to 0.8 of the peak, {_DAMAGE}", damage, judged, True),
+        *_row("comparison_cones", "Half specimens at the fall to 0.8 of the peak. Blue spheres have moved with the bottom platen since the "
+              "peak, orange ones with the top platen. Outlines: the cones fitted to these spheres. Numbers: half-angle, r0 (radius at the "
+              "platen over that of the specimen), confidence.", cones, judged),
+        *_row("comparison_fragments", f"Half specimens at the end. {_FRAGMENTS}", fragments, end)]
+
+
+# ---- the sleeve
+class Faces(namedtuple("Faces", "inner outer initial")):
+    """inner, outer: points of the frame at the corners of each face, n x 4: low, low, high, high along z, around. initial: places of
+    all points before the test (m)."""
+
+
+def faces_of(grid, where):
+    """Faces of a tube around the axis, from any of its frames. InputError where it is none."""
+    corners = hexahedra(grid, where)[:, FACES].reshape(-1, 4)
+    initial = grid.points - point_data(grid, where, displacement=3)[0]
+    x, y, z = initial.T
+    radius = numpy.hypot(x, y)
+    nearly = 0.01 * numpy.ptp(radius)  # of the wall
+
+    def ordered(faces):
+        faces = numpy.take_along_axis(faces, z[faces].argsort(1, kind="stable"), 1)
+        a, b, c, d = faces.T
+        turns = lambda p, q: x[p] * y[q] - y[p] * x[q] > 0  # from p to q the shorter way around
+        lower, upper = turns(a, b), turns(c, d)
+        return numpy.column_stack([numpy.where(lower, a, b), numpy.where(lower, b, a), numpy.where(upper, d, c), numpy.where(upper, c, d)])
+
+    inner = ordered(corners[(radius < radius.min() + nearly)[corners].all(1)])
+    outer = ordered(corners[(radius > radius.max() - nearly)[corners].all(1)])
+    if len(inner) == 0 or len(outer) == 0:
+        raise InputError(f"{where}: no tube around the axis")
+    return Faces(inner, outer, initial)
+
+
+def same(faces, grid, where):
+    """The grid; InputError where it is another sleeve than that of the faces."""
+    if len(grid.points) != len(faces.initial):
+        raise InputError(f"{where}: another sleeve than in the first frame")
+    return grid
+
+
+def state(faces, grid, where):
+    """Of each inner face: (stretch less 1 around, along z, of the means of opposite edges; pressure of the spheres on it, Pa; how far
+    spheres have slid along it, m)."""
+    pressure, slip = point_data(same(faces, grid, where), where, contact_pressure=1, slip=1)
+
+    def stretch(*edges):
+        now, before = (sum(numpy.linalg.norm(of[faces.inner[:, a]] - of[faces.inner[:, b]], axis=1) for a, b in edges)
+                       for of in (grid.points, faces.initial))
+        return now / before - 1
+
+    return stretch((0, 1), (2, 3)), stretch((0, 3), (1, 2)), pressure[faces.inner].mean(1), slip[faces.inner].mean(1)
+
+
+def unrolled(axes, run, time, title, which, factor, left=True):
+    """One of the quantities of `state` (times a factor) over the inner face as it was before the test, at a time; left: with names
+    of heights."""
+    frames = run.series("sleeve")
+    faces = faces_of(run.grid("sleeve", frames.times[0]), frames.path)
+    values = state(faces, run.grid("sleeve", time), frames.path)[which] * factor
+    x, y, z = faces.initial[faces.inner].transpose(2, 0, 1)
+    radius, turn = numpy.hypot(x, y).min(), numpy.arctan2(y, x)
+    turn = turn[:, :1] + (turn - turn[:, :1] + numpy.pi) % (2 * numpy.pi) - numpy.pi  # a face hangs together
+    places = numpy.stack([turn * radius, z], 2) * MM
+    round_ = 2 * numpy.pi * radius * MM
+    low, high = min(0, numpy.quantile(values, 0.02)), max(0, numpy.quantile(values, 0.98))
+    norm = Normalize(low, high if high > low else low + 1)
+    places = numpy.concatenate([places + [k * round_, 0] for k in (-1, 0, 1)])  # those over the seam stand at both ends
+    shown = (places[:, :, 0].max(1) > -round_ / 2) & (places[:, :, 0].min(1) < round_ / 2)
+    axes.add_collection(PolyCollection(places[shown], array=numpy.tile(values, 3)[shown], cmap=VIRIDIS, norm=norm, edgecolors="face",
+                                       lw=0.3, rasterized=True))
+    axes.set(xlim=(-round_ / 2, round_ / 2), ylim=(z.min() * MM, z.max() * MM), xlabel="Around (mm)")
+    axes.set_ylabel("z (mm)" if left else "", labelpad=1)
+    axes.tick_params(labelleft=left)
+    axes.set_title(title, loc="left")
+    axes.grid(False)
+    bar = axes.inset_axes([1.015, 0, 0.025, 1])
+    axes.figure.colorbar(ScalarMappable(norm, VIRIDIS), cax=bar, ticks=MaxNLocator(4))
+    bar.tick_params(labelsize=8)
+
+
+def pictures_of_sleeve(run):
+    """The Pictures of the section "Sleeve" that the files of a run allow."""
+    if not run.series("sleeve") or not run.series("specimen"):
+        return []
+    zero = (float(run.h["time_s"][run.zero]), "after consolidation" if run.zero > 0 else "before the test")
+    later = [(run.peak_time, "near the peak"), (run.end_time, "at the end")]
+    rows = [[partial(unrolled, run=run, time=time, title=f"{when}: {words}", which=which, factor=factor, left=k == 0)
+             for k, (time, when) in enumerate(later)]
+            for which, factor, words in ((0, 100, "stretch around (%)"), (2, MPA, "pressure of the spheres (MPa)"),
+                                         (3, MM, "slip of the spheres (mm)"))]
+    return [
+        panels("sleeve", "Half of the specimen in its sleeve (brown), as they are deformed. Spheres are coloured by outward displacement: "
+               "where the sleeve bulges, the specimen fails. Each panel has its own scale. The largest 5 % have the last colour.",
+               [partial(outward_displacement, run=run, time=time, title=words, sleeve=True) for time, words in (zero, *later)],
+               [run.extent], foot=FOOT),
+        Picture("sleeve_unrolled", "The inner face of the sleeve, unrolled: how much it is stretched around, the pressure of the spheres "
+                "on it (in gaps between spheres the pressure of the cell acts on the sleeve alone), and how far spheres have slid "
+                "along it. Each panel has its own scale; the outer 2 % have the last colours.", rows, 1.5, titles=True, bar=True)]

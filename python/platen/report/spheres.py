@@ -4,7 +4,7 @@ from matplotlib import patheffects
 from matplotlib.colors import LinearSegmentedColormap
 
 from ..errors import InputError
-from .house import DPI, images
+from .house import DPI, Picture
 
 RISE = 0.12  # tangent of the angle from above, about 7 degrees
 FINE = 2  # so many times finer than it is shown, so that edges are smooth
@@ -12,7 +12,7 @@ LIGHTS = ((0.8, (-0.6, 0.8, 1)), (0.3, (0.7, 0.1, 1)))  # strength, and where it
 STEEL, RUBBER = (0.62, 0.66, 0.70), (0.55, 0.43, 0.40)
 DAMAGE = LinearSegmentedColormap.from_list("damage", ["#e2e6e9", "#fdd49e", "#fdaa6e", "#ef6548", "#c81e19", "#780000"])
 HALO = [patheffects.withStroke(linewidth=2.5, foreground="white")]  # of letters and lines over spheres
-_FACES = [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]]  # of a hexahedron, from outside
+FACES = [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]]  # of a hexahedron, from outside
 
 
 def seen(places):
@@ -43,7 +43,7 @@ def hexahedra(grid, where):
 
 def surface(grid, where):
     """Corners of the faces that belong to one element alone, n x 4, counter-clockwise from outside."""
-    faces = hexahedra(grid, where)[:, _FACES].reshape(-1, 4)
+    faces = hexahedra(grid, where)[:, FACES].reshape(-1, 4)
     low, second, third, _ = numpy.sort(joined(grid.points)[faces], 1).T
     _, first, count = numpy.unique((low << 42) + (second << 21) + third, return_index=True, return_counts=True)
     return faces[first[count == 1]]
@@ -75,9 +75,7 @@ def _filled(first, last):
 class Scene:
     """What is drawn into one axes. Axes of it are to the right and up in m; what `show` puts there covers the whole axes.
 
-    scene = Scene(axes, run.extent)
-    scene.spheres(position, radius, colour)
-    scene.show()
+    scene = Scene(axes, run.extent) scene.spheres(position, radius, colour) scene.show()
     """
 
     def __init__(self, axes, extent, size=None, margin=0.12, foot=0.0):
@@ -228,4 +226,4 @@ def panels(name, caption, draws, extents, bar=False, foot=0.0, margin=0.12):
     around = margin * max(2 * half_width, height)
     high = wide * (height + 2 * around) / (2 * half_width + 2 * around) + foot
     rows = [draws[k : k + across] for k in range(0, len(draws), across)]
-    return images(name, caption, height=min(4.4, high), bar=bar)._replace(rows=rows)
+    return Picture(name, caption, rows, min(4.4, high), raster=True, bar=bar, titles=True, margin=0.1)

@@ -1,25 +1,24 @@
 """Pages of studies: strength over friction, slenderness, size, packing or rate; errors over cost; an ordered accuracy."""
 import math
-from collections import Counter
+from collections import Counter, namedtuple
+from copy import copy
 from functools import partial
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy
 
-from . import words
 from ..errors import InputError
 from ..results import Study, runs
 from .envelope import fit_line, mohr, strength_en_1998_3, strength_over_pressure, strength_richart
-from .house import BLACK, CYCLE, GPA, GREY, MARKS, MM, MPA, chart, legend_over
-from .kit import Spread, over_packings, plain_decades, reading, scatter_bars, with_unit
+from .house import BLACK, CYCLE, GPA, GREY, MARKS, MM, MPA, chart, digits, legend_over, plain_decades, scatter_bars, titled
 from .pages import Page, Section, Table
 from .precision import section_of_accuracy, section_of_target
-from .run import TestRun, number_in, number_with_unit
+from .run import Results, TestRun, listed, number_in, number_with_unit, reading
+from .words import ENDINGS, Spread, head, over_packings, true_title, with_unit
 
 MOST = 6  # cases in a chart of stress over strain
 GAIN, RELATIVE = "gain over free ends", "strength over that at slenderness 2"
-PLATENS, PARAMETERS = ("friction", "slenderness"), ("size", "packing", "rate", "vary")
+PLATENS, PARAMETERS, ERRORS = ("friction", "slenderness"), ("size", "packing", "rate", "vary"), ("accuracy", "target")
 # What cases differ in: words of axes, words of tables and legends, unit, factor from SI. The first that differs is an x axis.
 COLUMNS = {"across": ("Diameter of the specimen over that of a sphere", "spheres across", "", 1),
            "friction_static": ("Coefficient of friction of the platens", "friction", "", 1),
@@ -40,30 +39,48 @@ BARS = "Bars: standard deviation over the packings, of fewer than five packings 
 NOTE = "+-: standard deviation; ...: range of fewer than five packings. In brackets: how many packings gave the figure, where not all did."
 
 
-class Case(NamedTuple):
+class Case(namedtuple("Case", "name surface labels figures runs packings without_peak")):
     """labels: what it has of COLUMNS, in their units. figures: Spreads by key of FIGURES, in their units. packings: that ended."""
 
-    name: str
-    surface: str
-    labels: dict
-    figures: dict
-    runs: int
-    packings: int
-    without_peak: int
 
+class Studied(Results):
+    """A study that has ended. said: its study.json. cases: {name: Case}. ratios: its comparisons, each with a "spread", and on which
+    "side" of the laboratory's range it is, "" within it. InputError where it is damaged, has not ended, or is of a kind without a page."""
 
-class Studied(NamedTuple):
-    """A study.json. cases: {name: Case}. ratios: its comparisons, each with a "spread". said: all of it."""
+    def __init__(self, folder):
+        super().__init__(folder)
+        file, said = self.folder / "study.json", Study(folder).summary
+        status, self.kind, self.said, self.ratios = said.get("status"), said.get("kind", "nothing"), said, []
+        if status in ("running", "planned"):
+            further = "--run, then --collect" if status == "planned" else "--resume"
+            raise InputError(f"{file}: the study has not ended; go on with it by platen-study {self.kind} {further}")
+        if self.kind not in (*PLATENS, *PARAMETERS, *ERRORS):
+            raise InputError(f"{file}: is of a study of {self.kind}; pages are made of studies of friction, slenderness, size, packing, "
+                             f"rate, vary, accuracy and target, and of single runs ({self.folder / 'runs'})")
+        with reading(file):
+            for key in said["varied"] if self.kind == "vary" else []:  # of any entries: words of their names, the SI unit at the end
+                end, unit = next((both for both in ENDINGS if key.endswith(both[0])), ("", ""))
+                name = key.removesuffix(end).replace("_", " ")
+                COLUMNS.setdefault(key, (name.capitalize(), name, unit, 1))
+            self.cases = {one["name"]: self._case(one) for one in (said.get("cases", []) if self.kind in ERRORS else said["cases"])}
+            for one in said["comparisons"] if self.kind in PLATENS else []:
+                for lost in {one["case"], one["over"]} - {*self.cases}:
+                    raise ValueError(f"no case {lost}")
+                spread, outside = over_packings(one), one.get("verdict") == "outside"
+                side = ("above" if spread.mean > one["laboratory"]["high"] else "below") if outside else ""
+                self.ratios.append({**one, "spread": spread, "side": side})
 
-    folder: Path
-    kind: str
-    cases: dict
-    ratios: list
-    said: dict
-
-    @property
-    def name(self):
-        return self.folder.resolve().name
+    def _case(self, said):
+        varied, height = COLUMNS if self.kind not in ERRORS else (), number_with_unit(self.entry("Specimen/Height"))
+        labels = {key: number_in(said, key) * COLUMNS[key][3] for key in varied if math.isfinite(number_in(said, key))}
+        if self.kind == "size" and {"radius_m", "sphere_radius_m"} <= labels.keys():
+            labels["across"] = labels["radius_m"] / labels["sphere_radius_m"]
+        if self.kind == "rate" and height > 0 and "axial_rate_m_s" in labels:
+            labels["strain_rate"] = labels.pop("axial_rate_m_s") / (height * MM)
+        figures = {key: over_packings(said[key], FIGURES[key][2]) if key in said else Spread() for key in FIGURES}
+        ended = said["runs"] - said.get("failed", 0) - said.get("missing", 0)
+        surface = said["surface"] if self.kind in PLATENS else ""
+        return Case(said["name"], surface, labels, figures, said["runs"], ended, said.get("without_peak", 0))
 
     @property
     def columns(self):
@@ -99,9 +116,9 @@ class Studied(NamedTuple):
     def curves(self, x):
         """{words: cases in the order of x} of what is drawn over a label. Platens that hold otherwise than by friction have no
         place over it."""
-        cases, curves = [case for case in self.cases.values() if x in case.labels], {}
-        sizes = [[case.labels.get(key) for key in ("radius_m", "height_m")] for case in cases]
-        for case, size in sorted(zip(cases, sizes), key=lambda both: both[0].labels[x]):
+        cases = sorted((case for case in self.cases.values() if x in case.labels), key=lambda case: case.labels[x])
+        sizes, curves = [[case.labels.get(key) for key in ("radius_m", "height_m")] for case in cases], {}
+        for case, size in zip(cases, sizes):
             keys = [key for key in (*self.columns, *(("surface",) if x == "slenderness" else ())) if key != x]
             if x == "across":  # a specimen filled with several spheres, or one sphere in several specimens
                 keys = ["radius_m", "height_m"] if sizes.count(size) > 1 else ["sphere_radius_m"]
@@ -110,67 +127,13 @@ class Studied(NamedTuple):
         return curves
 
 
-# ---- reading
-def _case(said, kind, height):
-    varied = COLUMNS if kind in (*PLATENS, *PARAMETERS) else ()
-    labels = {key: number_in(said, key) * COLUMNS[key][3] for key in varied if math.isfinite(number_in(said, key))}
-    if kind == "size" and {"radius_m", "sphere_radius_m"} <= labels.keys():
-        labels["across"] = labels["radius_m"] / labels["sphere_radius_m"]
-    if kind == "rate" and height > 0 and "axial_rate_m_s" in labels:
-        labels["strain_rate"] = labels.pop("axial_rate_m_s") / (height * MM)
-    figures = {key: over_packings(said[key], FIGURES[key][2]) if key in said else Spread() for key in FIGURES}
-    ended = said["runs"] - said.get("failed", 0) - said.get("missing", 0)
-    return Case(said["name"], said["surface"] if kind in PLATENS else "", labels, figures, said["runs"], ended, said.get("without_peak", 0))
-
-
-def _declare(varied):
-    """Words of columns that a study of any entries has: of their names, with the SI unit at the end."""
-    for key in varied:
-        name, unit = next(((key[: -len(end)], unit) for end, unit in words.ENDINGS if key.endswith(end)), (key, ""))
-        name = name.replace("_", " ")
-        COLUMNS.setdefault(key, (name.capitalize(), name, unit, 1))
-
-
-def _studied(folder, said):
-    if said["kind"] == "vary":
-        _declare(said["varied"])
-    height = number_with_unit(words.results_in(folder).entries.get("Specimen/Height", ""))
-    cases = {one["name"]: _case(one, said["kind"], height) for one in said["cases"]}
-    ratios = [{**one, "spread": over_packings(one)} for one in said["comparisons"]] if said["kind"] in PLATENS else []
-    lost = [one[key] for one in ratios for key in ("case", "over") if one[key] not in cases]
-    if lost:
-        raise ValueError(f"no case {lost[0]}")
-    return Studied(folder, said["kind"], cases, ratios, said)
-
-
-def _finished(folder):
-    """What study.json holds. InputError where it is damaged, of a study that has not ended, or of one that no page is made of."""
-    file, said = folder / "study.json", Study(folder).summary
-    status, kind = said.get("status"), said.get("kind", "nothing")
-    if status in ("running", "planned"):
-        further = "--run, then --collect" if status == "planned" else "--resume"
-        raise InputError(f"{file}: the study has not ended; go on with it by platen-study {kind} {further}")
-    if kind not in (*PLATENS, *PARAMETERS, "accuracy", "target"):
-        raise InputError(f"{file}: is of a study of {kind}; pages are made of studies of friction, slenderness, size, packing, rate, "
-                         f"vary, accuracy and target, and of single runs ({folder / 'runs'})")
-    return said
-
-
-def _reasons(folder, case, figure):
-    """Why a figure of a case does not count, from the summaries of its runs; "" where they say nothing."""
-    said = [words.summary_of(path).get("validity") for path in sorted((folder / "runs").glob("*_seed_*"))
-            if path.name.rpartition("_seed_")[0] == case]
-    against = Counter(str(one) for each in said if isinstance(each, dict) and isinstance(each.get(figure), list) for one in each[figure])
-    return "; ".join(f"{count} of {len(said)} runs: {reason}" for reason, count in sorted(against.items()))
-
-
 # ---- charts
 def over(axes, studies, x, key, named=True):
     """A figure (key of FIGURES) or an effect of the cases over a label (key of COLUMNS), a curve for each choice of the others; of
     an effect with what laboratories measured. A case without the figure is a gap. named: with a legend of the curves."""
     drawn, beside = 0, {}
     for n, study in enumerate(studies):
-        outside = {one["case"] for one in study.ratios if one["effect"] == key and one.get("verdict") == "outside"}
+        outside = {one["case"] for one in study.ratios if one["effect"] == key and one["side"]}
         for name, cases in study.curves(x).items():
             colour, place = CYCLE[drawn % len(CYCLE)], [case.labels[x] for case in cases]
             mean, low, high, packings = numpy.array([study.value(case, key) for case in cases], float).T
@@ -215,8 +178,7 @@ def stress(axes, study, cases, tests):
     for k, case in enumerate(cases):
         for n, run in enumerate(tests[case.name]):
             axes.plot(run.strain[run.rows] * MM, run.stress[run.rows] * MPA, color=CYCLE[k], lw=0.9, label=None if n else study.words(case))
-    axes.set(xlabel=run.strain_title, ylabel=run.stress_title)
-    legend_over(axes, 2)
+    titled(axes, run.strain_title, run.stress_title, 2)
 
 
 # ---- pictures and tables of cases
@@ -269,7 +231,7 @@ def tables_of_cases(study, title=""):
     """Cases with what they differ in and their strength; their other figures."""
     platens, cases, further = study.kind in PLATENS, study.cases.values(), []
     header = ["case", *(["platens"] if platens else []), *(with_unit(*COLUMNS[key][1:3]) for key in study.columns)]
-    rows = [[case.name, *([case.surface] if platens else []), *(words.digits(case.labels.get(key)) for key in study.columns),
+    rows = [[case.name, *([case.surface] if platens else []), *(digits(case.labels.get(key)) for key in study.columns),
              str(case.runs) if case.packings == case.runs else f"{case.packings} of {case.runs}",
              ("> " if case.without_peak else "") + case.figures["strength_pa"].words(".1f", case.packings)] for case in cases]
     bore = " >: packings without a peak are among them, whose strength is larger." if any(case.without_peak for case in cases) else ""
@@ -281,11 +243,6 @@ def tables_of_cases(study, title=""):
     return [Table([*header, "packings", "strength (MPa)"], rows, title, NOTE + bore), *further]
 
 
-def _side(one):
-    """On which side of the laboratory's range a ratio is; "" within it, and without one."""
-    return "" if one.get("verdict") != "outside" else "above" if one["spread"].mean > one["laboratory"]["high"] else "below"
-
-
 def tables_of_ratios(study):
     """A table for each effect: ratios beside what laboratories measured."""
     tables = []
@@ -293,10 +250,10 @@ def tables_of_ratios(study):
         rows, sources = [], {}
         for one in (one for one in study.ratios if one["effect"] == effect):
             case, of, said = study.cases[one["case"]], one["laboratory"], "-"
+            verdict = f"{one['side']} the range" if one["side"] else "within" if of else "-"
             if of:
                 said = f"{of['mean']:.2f} ({of['low']:.2f} ... {of['high']:.2f})"
                 sources.setdefault(f"{of['platens']}: {of['source']}")
-            verdict = f"{_side(one)} the range" if _side(one) else "within" if of else "-"
             rows.append([study.words(case), study.words(study.cases[one["over"]]), one["spread"].words(".3f", case.packings), said,
                          f"none: {one['reason']}" if one.get("reason") else verdict])
         tables.append(Table(["case", "over", "ratio", "laboratory", ""], rows, effect[0].upper() + effect[1:],
@@ -310,13 +267,21 @@ def _failed(said):
     return [f"{said[key]} of {said['runs']} runs {what}: no mean contains them" for key, what in how if said.get(key, 0) > 0]
 
 
+def _reasons(folder, case, figure):
+    """Why a figure of a case does not count, from the summaries of its runs; "" where they say nothing."""
+    said = [Results(path).info.get("validity") for path in sorted((folder / "runs").glob("*_seed_*"))
+            if path.name.rpartition("_seed_")[0] == case]
+    against = Counter(str(one) for each in said for one in listed(each, figure, object))
+    return "; ".join(f"{count} of {len(said)} runs: {reason}" for reason, count in sorted(against.items()))
+
+
 def _verdicts(study):
     """(sentences for the top, remarks): what is outside the laboratory's range, and why figures are not given."""
     remarks, judged = [], [one for one in study.ratios if one.get("verdict") and not one.get("reason")]
     for one in study.ratios:
         what, of = f"{one['effect']}, {study.words(study.cases[one['case']])}", one["laboratory"]
-        if _side(one):
-            remarks.append(f"{what}: {one['spread'].words('.3f')} is {_side(one)} the laboratory's range, "
+        if one["side"]:
+            remarks.append(f"{what}: {one['spread'].words('.3f')} is {one['side']} the laboratory's range, "
                            f"{of['low']:.2f} ... {of['high']:.2f} ({of['source']})")
         if one.get("reason"):
             remarks.append(f"{what}: not given: {one['reason']}")
@@ -329,7 +294,7 @@ def _verdicts(study):
             why = _reasons(study.folder, case.name, key) or lost if math.isnan(case.figures[key].mean) or case.without_peak else ""
             if why or math.isnan(case.figures[key].mean):
                 remarks.append(f"{case.name}: no {FIGURES[key][0].split(' (')[0].lower()}{', ' if why else ''}{why}; a gap in the picture")
-    outside = sum(bool(_side(one)) for one in judged)
+    outside = sum(one["side"] != "" for one in judged)
     lead = f"Laboratory: {outside or 'none'} of {len(judged)} ratios {'are' if outside > 1 else 'is'} outside the measured range."
     return [lead] if judged else [], remarks + _failed(study.said)
 
@@ -354,38 +319,38 @@ def _section_of_failure(study, remarks):
             continue
         levels = sorted((at[case.name], case.figures["strength_pa"]) for case in cases if at.get(case.name) in p)
         line, fc = fit_line(p, s), levels[0][1].mean if levels[0][0] == 0 else math.nan
-        laws = [[words.digits(value if s3 > 0 else math.nan) for value in (
+        laws = [[digits(value if s3 > 0 else math.nan) for value in (
             (of.mean - fc) / (s3 or 1), strength_en_1998_3(fc, s3), strength_richart(fc, s3))] for s3, of in levels]
         lines = [(f"{seed:.0f}", fit_line(p[seeds == seed], s[seeds == seed])) for seed in sorted(set(seeds))] + [("all", line)]
         tables += [Table(["pressure (MPa)", "packings", "strength (MPa)", "(s1 - fc) / s3", "EN 1998-3 (MPa)", "Richart (MPa)"],
                          [[f"{s3:.4g}", str(of.packings), of.words(".1f"), *law] for (s3, of), law in zip(levels, laws)], name),
                    Table(["packing (seed)", "points", "q (MPa)", "k", "c (MPa)", "phi (degrees)"],
-                         [[of, str(one.count), *(words.digits(value) + (f" +- {error:.2g}" if error > 0 else "") for value, error in (
+                         [[of, str(one.count), *(digits(value) + (f" +- {error:.2g}" if error > 0 else "") for value, error in (
                              (one.q, one.q_error), (one.k, one.k_error), (one.cohesion, one.cohesion_error), (one.phi, one.phi_error)))]
                           for of, one in lines], "", "s1 = q + k s3, through all points of a packing, and of all. +-: standard error.")]
         points = [(s3, of.mean, of.low, of.high) for s3, of in levels]
         caption = (f"{name}: above, strength over the pressure on the sides, the line fitted to all packings, and what EN 1998-3 and "
                    f"Richart give for the same unconfined strength; below, Mohr's circles and the tangent of that line. {BARS}")
-        pictures.append(chart("failure_envelope" + (f"_{len(pictures)}" if pictures else ""), caption, heights=[3.0, 3.4],
-                              *(partial(draw, points=points, line=line) for draw in (strength_over_pressure, mohr))))
+        pictures.append(chart("failure_envelope" + (f"_{len(pictures)}" if pictures else ""), caption, strength_over_pressure, mohr,
+                              points=points, line=line, heights=[3.0, 3.4]))
     return Section("Failure under pressure", pictures, tables)
 
 
 # ---- pages
 def _page_of_cases(studies):
     """Of one study, or of several in the same figures."""
-    results, several, platens = [words.results_in(study.folder) for study in studies], len(studies) > 1, studies[0].kind in PLATENS
-    leads, head = words.head(results)
+    several, platens, (leads, tables) = len(studies) > 1, studies[0].kind in PLATENS, head(studies)
     remarks, ratios, pictures, failure = [], [], [], None
     for study in studies:
         start = f"{study.name}: " if several else ""
         lead, further = _verdicts(study)
         leads, remarks = leads + [start + text for text in lead], remarks + [start + text for text in further]
-        head = head + tables_of_cases(study, study.name if several else "")
+        tables = tables + tables_of_cases(study, study.name if several else "")
         ratios += [table._replace(title=start + table.title) for table in tables_of_ratios(study)]
     if platens and not several:  # alike in spheres and pressure
         for name, cases in studies[0].groups(["sphere_radius_m", "confining_pressure_pa"]).items():
-            part = studies[0]._replace(cases={case.name: case for case in cases})
+            part = copy(studies[0])
+            part.cases = {case.name: case for case in cases}
             pictures += _pictures_of_platens([part], f"_{len(pictures)}" if pictures else "", name)
         failure = _section_of_failure(studies[0], remarks)
     else:
@@ -396,40 +361,27 @@ def _page_of_cases(studies):
         remarks.append(f"{why}: there is no curve to draw")
     stresses = Section("Stress and strain", _pictures_of_stress(studies, remarks))
     sections = [Section("Results over what was varied", pictures, ratios), failure, stresses]
-    return Page(" and ".join(words.true_title(one) for one in results), leads, head, [section for section in sections if section], remarks)
+    return Page(" and ".join(map(true_title, studies)), leads, tables, sections, remarks)
 
 
-def _page(folder, said):
-    if said["kind"] not in ("accuracy", "target"):
-        return _page_of_cases([_studied(folder, said)])
-    study, results = _studied(folder, {"cases": [], **said}), words.results_in(folder)
-    section, remarks = (section_of_accuracy if said["kind"] == "accuracy" else section_of_target)(said)
-    stresses = Section("Stress and strain", _pictures_of_stress([study], remarks))
-    return Page(words.true_title(results), *words.head([results]), [section, stresses], remarks + _failed(said))
-
-
-def page_of(folder):
-    """The Page of a study's folder, None where it is none. InputError where study.json is damaged, or the study has not ended."""
-    folder = Path(folder)
-    if not (folder / "study.json").exists():
+def page_of(folder, *others):
+    """The Page of a study's folder, None where it is none; with others of all in one figure: several of friction and slenderness, or of
+    one other kind. InputError where one is damaged, has not ended, or does not go with the others."""
+    folders = [Path(one) for one in (folder, *others)]
+    lost = [one for one in folders if not (one / "study.json").exists()]
+    if lost and not others:
         return None
-    with reading(folder / "study.json"):
-        return _page(folder, _finished(folder))
-
-
-def comparison(folders):
-    """The Page of several studies in one figure: of friction and slenderness, or of one other kind. InputError for others."""
-    folders = [Path(folder) for folder in folders]
-    lost = [folder for folder in folders if not (folder / "study.json").exists()]
     if lost:
-        raise InputError(f"--compare: {lost[0]} holds no study, {folders[0]} does. Allowed: studies beside a study, runs beside a run")
-    said = [_finished(folder) for folder in folders]
-    for folder, one in zip(folders, said):
-        if one["kind"] in ("accuracy", "target") or (one["kind"] != said[0]["kind"] and not {one["kind"], said[0]["kind"]} <= {*PLATENS}):
-            raise InputError(f"--compare: {folder} is of a study of {one['kind']}, {folders[0]} of one of {said[0]['kind']}. Allowed: "
-                             "several of friction or slenderness, several of size, of packing, of rate, of vary")
-    studies = []
-    for folder, one in zip(folders, said):
-        with reading(folder / "study.json"):
-            studies.append(_studied(folder, one))
-    return _page_of_cases(studies)
+        raise InputError(f"--compare: {lost[0]} holds no study, {folder} does. Allowed: studies beside a study, runs beside a run")
+    studies = [Studied(one) for one in folders]
+    kind, study = studies[0].kind, studies[0]
+    for other in studies if others else []:
+        if other.kind in ERRORS or (other.kind != kind and not {other.kind, kind} <= {*PLATENS}):
+            raise InputError(f"--compare: {other.folder} is of a study of {other.kind}, {folder} of one of {kind}. Allowed: several of "
+                             "friction or slenderness, several of size, of packing, of rate, of vary")
+    with reading(study.folder / "study.json"):
+        if kind not in ERRORS:
+            return _page_of_cases(studies)
+        section, remarks = (section_of_accuracy if kind == "accuracy" else section_of_target)(study.said)
+        stresses = Section("Stress and strain", _pictures_of_stress(studies, remarks))
+        return Page(true_title(study), *head(studies), [section, stresses], remarks + _failed(study.said))

@@ -9,7 +9,8 @@ import numpy
 from ..errors import InputError
 from .cracks import cracks_until
 from .house import MM, MPA
-from .sleeve import faces_of, same
+from .run import is_round, nearest
+from .specimen import faces_of, same
 from .spheres import hexahedra, joined
 
 HERE = Path(__file__).resolve().parent / "viewer"
@@ -43,8 +44,8 @@ def boxes_of(grid, where):
     for one in dict.fromkeys(body.tolist()):
         points = grid.points[corners[body == one]].reshape(-1, 3).astype(float)
         low, high = points.min(0), points.max(0)
-        half, reach = (high - low)[:2] / 2, numpy.hypot(*(points - (low + high) / 2)[:, :2].T).max()
-        boxes.append([*low.round(7).tolist(), *high.round(7).tolist(), int(reach < 1.15 * half.min() and half.max() < 1.15 * half.min())])
+        reach = numpy.hypot(*(points - (low + high) / 2)[:, :2].T).max()
+        boxes.append([*low.round(7).tolist(), *high.round(7).tolist(), int(is_round(reach, *(high - low)[:2] / 2))])
     return boxes
 
 
@@ -56,10 +57,8 @@ def pack(run, most_frames=MOST_FRAMES):
     first frame that has them (1 byte); then, with a sleeve, the places of the corners of its outer face (3 x 2 bytes) before the
     test and in each frame. InputError where frames do not go together."""
     frames, first, extent = run.series("specimen"), run.start, run.extent
-    nearest = lambda time: int(numpy.abs(frames.times - time).argmin())
-    shown = frames_to_show(len(frames), most_frames, [nearest(run.peak_time), nearest(run.pattern_time)])
-    low = numpy.array([-extent.half_width, -extent.half_depth, extent.bottom])
-    high = numpy.array([extent.half_width, extent.half_depth, extent.top])
+    peak, opened = (nearest(frames.times, time) for time in (run.peak_time, run.pattern_time))
+    shown, (low, high) = frames_to_show(len(frames), most_frames, [peak, opened]), extent.corners
     widest, margin = (high - low).max(), 0.25  # what has flown further is drawn at that border
     origin, step = low - margin * widest, (1 + 2 * margin) * widest / 65535
     radius_step = first.radius.max() / 65535 * 4  # areas of bonds may be larger than spheres
@@ -72,12 +71,10 @@ def pack(run, most_frames=MOST_FRAMES):
         spheres = run.spheres(time)
         if not numpy.array_equal(spheres.fields["id"], first.fields["id"]):
             raise InputError(f"{frames.path}: the frame at {time:g} s holds other spheres than the first one")
-        piece = numpy.zeros(len(spheres.radius), int) if spheres.fragment is None else spheres.fragment.astype(int)
-        single = (numpy.bincount(piece)[piece] == 1) & (spheres.fragment is not None)
-        piece = numpy.where(single, 255, numpy.where(piece == 0, 0, 1 + (piece - 1) % 254))
+        piece = spheres.fragment
+        piece = numpy.where(numpy.bincount(piece)[piece] == 1, 255, numpy.where(piece == 0, 0, 1 + (piece - 1) % 254))
         parts += [places(spheres.position), numpy.round(255 * spheres.damage).astype("u1").tobytes(), piece.astype("u1").tobytes()]
-        row = int(numpy.abs(rows - time).argmin())
-        at = int(numpy.abs(platens.times - time).argmin()) if platens else None
+        row, at = nearest(rows, time), nearest(platens.times, time) if platens else None
         times.append(time)
         told.append({"time_s": time, "words": f"strain {run.strain[row] * MM:.2f} mm/m, stress {run.stress[row] * MPA:.1f} MPa",
                      "platens": [box for part in platens.parts(at) for box in boxes_of(part, platens.path)] if platens else []})
@@ -88,8 +85,8 @@ def pack(run, most_frames=MOST_FRAMES):
         parts += [places(cracks.place), numpy.round(127 * cracks.normal).astype("i1").tobytes(), (~cracks.tension).astype("u1").tobytes(),
                   two(numpy.sqrt(cracks.area / numpy.pi) / radius_step), numpy.searchsorted(times, cracks.time).astype("u1").tobytes()]
     meta = {"spheres": len(first.radius), "cracks": count, "radius_step": radius_step, "step": step, "origin": origin.tolist(),
-            "low": low.tolist(), "high": high.tolist(), "plane": bool(extent.is_plane), "pieces": first.fragment is not None,
-            "start_frame": shown.index(nearest(run.pattern_time)), "ids": first.fields["id"].tolist(), "frames": told}
+            "low": low.tolist(), "high": high.tolist(), "plane": bool(extent.is_plane),
+            "start_frame": shown.index(opened), "ids": first.fields["id"].tolist(), "frames": told}
     sleeve = run.series("sleeve")
     if sleeve:
         faces = faces_of(run.grid("sleeve", sleeve.times[0]), sleeve.path)

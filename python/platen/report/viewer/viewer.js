@@ -29,7 +29,7 @@
   const metre = (frame, sphere, axis) => meta.origin[axis] + meta.step * frame.place[3 * sphere + axis];
 
   // ---- state of the view
-  const words = ['damage', 'displacement', 'outward', 'piece'].filter((w) => w !== 'piece' || meta.pieces);
+  const words = ['damage', 'displacement', 'outward', 'piece'];
   const state = {frame: meta.start_frame, quantity: words[0], cut: 'y', depth: 0.5, tension: false, shear: false, sleeve: true, magnify: 1,
                  yaw: 0.6, pitch: 0.25, zoom: 1, pan: [0, 0], picked: -1, playing: false};
   const low = meta.low, high = meta.high; // corners of the specimen before the test, m
