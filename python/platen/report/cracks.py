@@ -82,34 +82,24 @@ def edges(extent):
     return rims + [numpy.array([[x, 0, extent.bottom], [x, 0, extent.top]]) for x in (-w, w)]
 
 
-def discs(axes, run, cracks, colours, title):
-    """The cracks of the half y < 0 as discs of their areas; colours: n x 3, or one for all."""
-    scene, shown = Scene(axes, run.extent, margin=0.06), cracks.place[:, 1] <= 0
-    colours = numpy.broadcast_to(colours, cracks.place.shape)
+def discs(axes, run, which):
+    """The bonds broken up to the fall to 0.8 of the peak in the half y < 0, as discs of their areas: those "in tension", those "in shear";
+    or those "before the peak", those "after the peak", coloured by their time over that of the peak."""
+    cracks = cracks_until(run, run.pattern_time)
+    over_peak = cracks.time / (run.peak_time or 1)
+    norm = Normalize(over_peak.min(initial=1), over_peak.max(initial=1))
+    if which in ("in tension", "in shear"):
+        chosen = cracks.tension == (which == "in tension")
+        colours = numpy.broadcast_to(to_rgb(VERMILION if which == "in tension" else BLUE), cracks.place.shape)
+    else:
+        chosen, colours = (cracks.time < run.peak_time) == (which == "before the peak"), VIRIDIS(norm(over_peak))[:, :3]
+    scene, shown = Scene(axes, run.extent, margin=0.06), chosen & (cracks.place[:, 1] <= 0)
     scene.spheres(cracks.place[shown], numpy.sqrt(cracks.area / numpy.pi)[shown], colours[shown], cracks.normal[shown])
     scene.show()
     for line in edges(run.extent):
         scene.line(line)
-    axes.set_title(title)
-
-
-def modes(axes, run, tension):
-    """The bonds broken in tension, or in shear, up to the fall to 0.8 of the peak."""
-    cracks = cracks_until(run, run.pattern_time)
-    cracks = cracks.where(cracks.tension == tension)
-    title = f"{len(cracks.time)} in {'tension' if tension else 'shear'} (both halves)"
-    discs(axes, run, cracks, to_rgb(VERMILION if tension else BLUE), title)
-
-
-def times(axes, run, before):
-    """The bonds broken before the peak, or after it, coloured by their time over that of the peak."""
-    cracks = cracks_until(run, run.pattern_time)
-    over_peak = cracks.time / (run.peak_time or 1)
-    norm = Normalize(over_peak.min(initial=1), over_peak.max(initial=1))
-    chosen = (cracks.time < run.peak_time) == before
-    title = f"{chosen.sum()} {'before' if before else 'after'} the peak (both halves)"
-    discs(axes, run, cracks.where(chosen), VIRIDIS(norm(over_peak[chosen]))[:, :3], title)
-    if not before:
+    axes.set_title(f"{chosen.sum()} {which} (both halves)")
+    if which == "after the peak":
         colour_bar(axes, VIRIDIS, norm, "Time over that of the peak")
 
 
@@ -159,10 +149,10 @@ def pictures_of_cracks(run):
     white = f" White cells had fewer than {FEWEST} bonds before the test, too few for a share." if numpy.isnan(found.values).any() else ""
     pictures = [
         panels("cracks", f"Bonds broken until {until} as discs of their size, in the half specimen: in tension (left), in shear (right).",
-               [partial(modes, run=run, tension=kind) for kind in (True, False)], [extent], margin=0.06),
+               [partial(discs, run=run, which=which) for which in ("in tension", "in shear")], [extent], margin=0.06),
         panels("crack_times", f"The same discs by the time when they broke, until {until}: before the peak (left) and after it (right). "
                "Where the right half is empty, no bond broke after the peak.",
-               [partial(times, run=run, before=kind) for kind in (True, False)], [extent], True, margin=0.06),
+               [partial(discs, run=run, which=which) for which in ("before the peak", "after the peak")], [extent], True, margin=0.06),
         Picture("crack_density", f"Bonds broken until {until} over the height and the distance from the "
                 f"{'plane x = 0' if extent.is_plane else 'axis'}; the left half mirrors the right.{white}",
                 [[partial(density_map, run=run)]], wide * extent.height / (2 * extent.half_width), wide + 0.72 + 0.95, bar=True)]

@@ -11,7 +11,7 @@ from . import laboratory as measured
 from .house import BLACK, BLUE, CYCLE, GREEN, GREY, MM, MPA, MS, ORANGE, PALE, PURPLE, SKY, VERMILION
 from .house import above, bars, chart, digits, span, titled
 from .pages import Section, Table
-from .platens import has_further_sides, sides_of, stress_column, style
+from .platens import SIDES, has_further_sides, sides_of
 from .run import STRAIN, STRESS, listed, number_in
 
 # Column, words, colour, line of the energies; the share of the work from which on a term stands in the first chart.
@@ -224,10 +224,10 @@ def side_stresses(axes, run):
     """A curve for each side over strain: a colour an axis, the high side dashed; dots at the peak."""
     sides = sides_of(run)
     for side in sides:
-        stress, look = run.h[stress_column(side)] * MPA, style(side)
+        stress, look = run.h[SIDES[side].column] * MPA, SIDES[side].look
         covered = side in ("left", "right") and "front" in sides  # where both pairs bear the same
         axes.plot(run.strain * MM, stress, label=side, lw=3.2 if covered else 1.4, **look)
-        if look["ls"] == "-":  # one of each pair
+        if not SIDES[side].high:
             axes.plot(run.strain[run.peak_row] * MM, stress[run.peak_row], "o", color=look["color"])
     titled(axes, run.strain_title, "Stress (MPa), compression positive", 6)
 
@@ -239,7 +239,7 @@ def section_of_sides(run):
         return None
     rows = []
     for side in sides_of(run):
-        stress, work = run.h[stress_column(side)] * MPA, f"friction_work_{side}_j"
+        stress, work = run.h[SIDES[side].column] * MPA, f"friction_work_{side}_j"
         rows.append([side, digits(stress.max()), digits(stress[run.peak_row]), digits(run.h[work][-1]) if run.has(work) else "-"])
     picture = chart("side_stresses", "Stress on each platen: its force over the face of the specimen. A colour is a pair of opposite "
                     "platens. They differ only by the friction that the other platens take up. Dots: the peak.", side_stresses, run=run,

@@ -12,7 +12,13 @@ from .fields import has_stress, near_peak, picture_of_stress_flow
 from .house import BLACK, BLUE, GREEN, GREY, MM, MPA, MS, VERMILION, VIRIDIS, Picture, above, chart, colour_bar, legend_above, span
 from .run import number_with_unit, point_data
 
-AXIS = {"bottom": 2, "top": 2, "left": 0, "right": 0, "front": 1, "back": 1}  # of each side, the low one of each pair first
+# Of each side, the low one of each pair first: axis (0 x, 1 y, 2 z), whether it is the high one, column of the history, axes of a
+# picture across and up, look of its curves: a colour an axis, the high side dashed.
+Side = namedtuple("Side", "axis high column plane look")
+SIDES = {name: Side(axis, high, ("axial_" if axis == 2 else "") + f"stress_{name}_pa", [other for other in range(3) if other != axis],
+                    {"color": colour, "ls": "--" if high else "-"})
+         for axis, pair, colour in ((2, ("bottom", "top"), BLUE), (0, ("left", "right"), VERMILION), (1, ("front", "back"), GREEN))
+         for high, name in enumerate(pair)}
 _UPRIGHT = 0.7  # of a normal; contacts at the rim of a platen may press aslant, those of a sleeve press sideways
 _RINGS = 5  # of equal area; the outermost is wider than a sphere's radius
 _FEW = 8  # spheres
@@ -26,42 +32,22 @@ class Contacts(namedtuple("Contacts", "x y normal_force inward_shear sliding she
 
 
 # ---- sides
-def has_further_sides(run):
-    return len(sides_of(run)) > 2
-
-
-def stress_column(side):
-    """Of the history."""
-    return f"axial_stress_{side}_pa" if AXIS[side] == 2 else f"stress_{side}_pa"
-
-
 def sides_of(run):
     """Names of the sides that have platens, as the columns of the history say: bottom and top, and further ones of a box."""
-    return [side for side in AXIS if run.has(stress_column(side))]
+    return [name for name, side in SIDES.items() if run.has(side.column)]
 
 
-def plane_of(side):
-    """Axes of a picture of the side, across and up: 0 x, 1 y, 2 z."""
-    return [axis for axis in range(3) if axis != AXIS[side]]
-
-
-def _is_high(side):
-    return side in ("top", "right", "back")
-
-
-def style(side):
-    """Colour and line of a side in every chart: a colour an axis, the high side dashed."""
-    return {"color": (VERMILION, GREEN, BLUE)[AXIS[side]], "ls": "--" if _is_high(side) else "-"}
+def has_further_sides(run):
+    return len(sides_of(run)) > 2
 
 
 def contacts_of(run, side, time):
     """Contacts of a platen in the frame nearest to a time. Those that press upwards are the bottom platen's, and so on; those
     of a sleeve press sideways: they are no platen's as long as nobody asks for one there. InputError where an array is missing."""
-    grid = run.grid("contacts", time)
-    normal, shear, force, sliding, slip = point_data(grid, run.folder / "contacts.pvd", normal=3, shear=3, normal_force=1, sliding=1,
-                                                     slip=1)
-    here = (-1 if _is_high(side) else 1) * normal[:, AXIS[side]] > _UPRIGHT
-    (x, y), along = grid.points[here][:, plane_of(side)].T, shear[here][:, plane_of(side)]
+    grid, where, side = run.grid("contacts", time), run.folder / "contacts.pvd", SIDES[side]
+    normal, shear, force, sliding, slip = point_data(grid, where, normal=3, shear=3, normal_force=1, sliding=1, slip=1)
+    here = (-1 if side.high else 1) * normal[:, side.axis] > _UPRIGHT
+    (x, y), along = grid.points[here][:, side.plane].T, shear[here][:, side.plane]
     away = numpy.hypot(x, y)
     inwards = -numpy.divide(along[:, 0] * x + along[:, 1] * y, away, out=numpy.zeros(len(x)), where=away > 0)
     return Contacts(x, y, force[here], inwards, sliding[here] != 0, numpy.linalg.norm(shear[here], axis=1), slip[here])
@@ -147,8 +133,8 @@ def friction(axes, run, which="friction"):
     time, most, limits = run.series("contacts").times * MS, 0, {}
     for side, states in _states(run).items():
         value, error = states[:, k].T * factor
-        axes.plot(time, value, label=side, **style(side))
-        axes.fill_between(time, value - error, value + error, color=style(side)["color"], alpha=0.15, lw=0)
+        axes.plot(time, value, label=side, **SIDES[side].look)
+        axes.fill_between(time, value - error, value + error, color=SIDES[side].look["color"], alpha=0.15, lw=0)
         most = max(most, numpy.nanmax(value, initial=0))
         for words, limit in zip(("static", "sliding"), friction_limits(run, side) if which == "friction" else ()):
             if not math.isnan(limit):
@@ -167,7 +153,7 @@ def friction_work(axes, run):
     """Work of friction over time: of each platen where the history has it, and of all."""
     for side in sides_of(run):
         if run.has(f"friction_work_{side}_j"):
-            axes.plot(run.h["time_s"] * MS, run.h[f"friction_work_{side}_j"], label=side, **style(side))
+            axes.plot(run.h["time_s"] * MS, run.h[f"friction_work_{side}_j"], label=side, **SIDES[side].look)
     if run.has("friction_work_j"):
         axes.legend(handles=axes.plot(run.h["time_s"] * MS, run.h["friction_work_j"], color=BLACK, label="platens and grains"),
                     loc="upper left")
@@ -200,7 +186,7 @@ def profile(axes, run, shear=False):
         middle, *stresses, n = ring_profile(contacts_of(run, side, run.peak_time), run.extent.half_width)
         value, error = stresses[shear] * MPA
         axes.errorbar(middle * MM, value, error, label=f"{side} platen", capsize=3, elinewidth=0.8, marker="os"[side == "top"],
-                      **style(side))
+                      **SIDES[side].look)
         axes.scatter(middle[n < _FEW] * MM, value[n < _FEW], 4, "white", zorder=5)
     axes.set(xlabel="Distance from the axis (mm)", ylabel="Inward shear (MPa)" if shear else "Pressure (MPa)",
              xlim=(0, run.extent.half_width * MM))
@@ -220,14 +206,14 @@ def face_pressure(contacts, low, high, square):
 
 
 def _face_size(run):  # across and up, m, of what all sides of the specimen fit into
-    return numpy.max([numpy.ptp(run.extent.corners, 0)[plane_of(side)] for side in sides_of(run)], axis=0)
+    return numpy.max([numpy.ptp(run.extent.corners, 0)[SIDES[side].plane] for side in sides_of(run)], axis=0)
 
 
 def _face(axes, run, side):
     """Limits and titles of a picture of a face; all sides in one scale. Returns its low and high corner, m."""
-    corners, size = run.extent.corners[:, plane_of(side)], _face_size(run)
+    corners, size = run.extent.corners[:, SIDES[side].plane], _face_size(run)
     (left, low), (right, high) = ((corners.mean(0) + sign * 0.525 * size) * MM for sign in (-1, 1))
-    across, up = ("xyz"[axis] for axis in plane_of(side))
+    across, up = ("xyz"[axis] for axis in SIDES[side].plane)
     axes.set(xlabel=f"{across} (mm)", ylabel=f"{up} (mm)", xlim=(left, right), ylim=(low, high))
     axes.set_box_aspect(size[1] / size[0])
     return corners

@@ -194,10 +194,12 @@ def cones_caption(run):
             "radius of the specimen.")
 
 
+def _with_cones(shown):
+    return [one for one in shown if one[0].fall_time is not None and one[0].spheres(one[0].end_time).moves_with is not None]
+
+
 def _row(name, caption, act, shown, has_bar=False, foot=0.0, **more):
     """Pictures: one of act(axes, run, time, title) for each of `shown`, in one size; none of none. has_bar: with a scale at the right."""
-    if act is cones:
-        shown = [one for one in shown if one[0].fall_time is not None and one[0].spheres(one[0].end_time).moves_with is not None]
     if not shown:
         return []
     extents = [run.extent for run, _, _ in shown]
@@ -225,7 +227,7 @@ def pictures_of_specimen(run):
               f"{'plane x = 0' if run.extent.is_plane else 'axis'}. Cones stay dark; what they push aside is light. Inward displacement "
               f"has the colour of 0. {scales}", outward_displacement, judged, foot=FOOT),
         *_row("damage", f"Half specimen, {_DAMAGE}", damage, judged, True),
-        *_row("cones", cones_caption(run), cones, judged),
+        *_row("cones", cones_caption(run), cones, _with_cones(judged)),
         *_row("fragments", f"Half specimen. {_FRAGMENTS}", fragments, judged)]
 
 
@@ -242,7 +244,7 @@ def comparison(runs):
         *_row("comparison_damage", f"Half specimens at the fall to 0.8 of the peak, {_DAMAGE}", damage, judged, True),
         *_row("comparison_cones", "Half specimens at the fall to 0.8 of the peak. Blue spheres have moved with the bottom platen since the "
               "peak, orange ones with the top platen. Outlines: the cones fitted to these spheres. Numbers: half-angle, r0 (radius at the "
-              "platen over that of the specimen), confidence.", cones, judged),
+              "platen over that of the specimen), confidence.", cones, _with_cones(judged)),
         *_row("comparison_fragments", f"Half specimens at the end. {_FRAGMENTS}", fragments, end)]
 
 
@@ -332,10 +334,9 @@ def pictures_of_sleeve(run):
             for which, factor, words in ((0, 100, "stretch around (%)"), (2, MPA, "pressure of the spheres (MPa)"),
                                          (3, MM, "slip of the spheres (mm)"))]
     return [
-        panels("sleeve", "Half of the specimen in its sleeve (brown), as they are deformed. Spheres are coloured by outward displacement: "
-               "where the sleeve bulges, the specimen fails. Each panel has its own scale. The largest 5 % have the last colour.",
-               [partial(outward_displacement, run=run, time=time, title=words, sleeve=True) for time, words in (zero, *later)],
-               [run.extent], foot=FOOT),
+        *_row("sleeve", "Half of the specimen in its sleeve (brown), as they are deformed. Spheres are coloured by outward displacement: "
+              "where the sleeve bulges, the specimen fails. Each panel has its own scale. The largest 5 % have the last colour.",
+              outward_displacement, [(run, time, words) for time, words in (zero, *later)], foot=FOOT, sleeve=True),
         Picture("sleeve_unrolled", "The inner face of the sleeve, unrolled: how much it is stretched around, the pressure of the spheres "
                 "on it (in gaps between spheres the pressure of the cell acts on the sleeve alone), and how far spheres have slid "
                 "along it. Each panel has its own scale; the outer 2 % have the last colours.", rows, 1.5, titles=True, bar=True)]
