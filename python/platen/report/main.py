@@ -1,5 +1,6 @@
 """platen-report: turns an output folder into pictures and a page, and compares several."""
 import argparse
+import logging
 import os
 import subprocess
 import sys
@@ -75,6 +76,7 @@ def _draw(options):
 
 def main(arguments=None):
     """The program; its exit status."""
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it tells of its cache of fonts
     parser = _Parser(add_help=False, prog="platen-report", allow_abbrev=False)
     parser.add_argument("folder", nargs="?")
     for names, how, _ in OPTIONS:
