@@ -173,9 +173,9 @@ def _facts(results):
                ("coordination ", number("coordination_number")))
     law, friction = entry("Effects/Bond"), friction_words(results) if isinstance(results, TestRun) else []
     bond = [law, *(f"{key.lower()} {entry('Bond/' + key)}" for key in _BOND if entry("Bond/" + key))] if law else []
-    rate, confined, ended = entry("Loading/Axial rate"), entry("Loading/Confinement") not in ("", "none"), info.get("ended_by")
-    loading = [info.get("test"), f"axial rate {rate}" if rate else "", f"ended by {ended}" if ended else ""]
-    loading.insert(2, f"{entry('Loading/Confinement')} at {entry('Loading/Confining pressure')}" if confined else "")
+    rate, beside, ended = entry("Loading/Axial rate"), entry("Loading/Confinement").replace("none", ""), info.get("ended_by")
+    loading = [info.get("test"), rate and f"axial rate {rate}", beside and f"{beside} at {entry('Loading/Confining pressure')}",
+               ended and f"ended by {ended}"]
     entries = "; ".join(f"{one.get('entry')} = {one.get('value')} (scene file: {one.get('in_scene_file') or 'empty'})" for one in over)
     return {"specimen": shape, "spheres": number("particles"), "bonds": number("bonds"),
             "mean radius (mm)": digits(results.mean_radius, 1e3),
