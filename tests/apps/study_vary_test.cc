@@ -47,8 +47,7 @@ TEST(StudyVary, an_entry_that_every_case_sets_may_be_missing_in_the_scene) {
 }
 
 TEST(StudyVary, what_varies_nothing_that_can_be_run_is_refused_by_name) {
-  EXPECT_NE(refusal({}).find("Study/Vary 1 is not set: nothing is varied"), std::string::npos)
-      << refusal({});
+  EXPECT_NE(refusal({}).find("Study/Vary 1 is not set: nothing is varied"), std::string::npos) << refusal({});
   const std::string unknown = refusal({"Study/Vary 2 = Platens/Frction static: 1"});
   EXPECT_NE(unknown.find("Study/Vary 2 = Platens/Frction static: 1 names Platens/Frction static, which is no "
                          "entry of this scene. Did you mean \"Platens/Friction static\"?"),
