@@ -123,6 +123,15 @@ class Laboratory(InFolder):
         short = laboratory.differences(self.run_with([0, 5, 20, 25, 20]), curve)
         self.assertEqual(short.rows[3][1:], ["-", "10", "-"])  # it ends before 1.5 times the strain at its peak
 
+    def test_a_figure_that_is_not_valid_is_not_compared(self):
+        curve = self.read("strain (mm/m),stress (MPa)\n0,0\n2,20\n3,10\n4,0\n")
+        bent = self.run_with([0, 5, 20, 25, 20, 15], validity={"strength_pa": "valid", "youngs_modulus_platen_pa": ["a bent bar"],
+                                                              "strain_at_peak_platen": ["closure is no strain"]})
+        table = laboratory.differences(bent, curve)
+        self.assertEqual([row[1] for row in table.rows], ["not valid", "25", "not valid", "not valid"])
+        self.assertEqual([row[3] for row in table.rows], ["-", "25", "-", "-"])
+        self.assertIn("Not valid: a bent bar; closure is no strain.", table.note)
+
     def test_the_chart_has_both_curves_with_the_sign_of_the_run(self):
         curve = self.read("strain (mm/m),stress (MPa)\n" + self.body())
         for sign in (1, -1):

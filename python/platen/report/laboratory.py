@@ -269,16 +269,22 @@ def _of_run(run):
 def differences(run, curve):
     """A pages.Table: figures of the run and of the laboratory by one rule, and their difference."""
     sign, strain, stress = _of_run(run)
-    rows = []
-    for words, factor, a, b in zip(("Young's modulus (GPa)", "strength (MPa)", "strain at the peak (mm/m)",
-                                    "stress at 1.5 times the strain at the peak (MPa)"), (GPA, MPA, MM, MPA),
-                                   figures(sign * strain, sign * stress), figures(curve.strain, curve.stress)):
+    said, rows, reasons = run.info.get("validity"), [], {}
+    for key, words, factor, a, b in zip(
+            ("youngs_modulus_platen_pa", "strength_pa", "strain_at_peak_platen", "strain_at_peak_platen"),
+            ("Young's modulus (GPa)", "strength (MPa)", "strain at the peak (mm/m)", "stress at 1.5 times the strain at the peak (MPa)"),
+            (GPA, MPA, MM, MPA), figures(sign * strain, sign * stress), figures(curve.strain, curve.stress)):
+        against = said.get(key) if isinstance(said, dict) else None
+        if isinstance(against, list):  # of a bent bar or a disc the closure is no strain of the material
+            reasons.update(dict.fromkeys(map(str, against)))
+            rows.append([words, "not valid", digits(b * factor), "-"])
+            continue
         no_peak = run.peak_reached is False and factor != GPA
         rows.append([words, "no peak reached" if no_peak else digits(a * factor), digits(b * factor),
                      "-" if no_peak or not b else digits(100 * (a - b) / b)])
     return Table(["figure", run.name, "laboratory", "difference (%)"], rows, "The run beside the laboratory",
                  "Young's modulus: secant between 10 and 40 % of the peak of each curve. Strain of the run: between the platens. "
-                 "Difference: of the run from the laboratory.")
+                 "Difference: of the run from the laboratory." + (f" Not valid: {'; '.join(reasons)}." if reasons else ""))
 
 
 def against_laboratory(axes, run, curve):
