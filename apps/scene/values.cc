@@ -128,4 +128,15 @@ std::string text_of(const Stiffness &stiffness) {
   return shortest_text(stiffness.value) + unit;
 }
 
+std::vector<std::string> read_assignments(const std::string &text, bool may_clear) {
+  return read_items<std::string>(text, [may_clear](const std::string &item) {
+    const std::size_t sign = item.find('=');
+    if (sign == std::string::npos) throw ValueError("sets nothing: \"Section/Key = value\" does");
+    const std::string path = tidy(item.substr(0, sign)), value = tidy(item.substr(sign + 1));
+    if (path.find('/') == std::string::npos) throw ValueError("names no entry: \"Section/Key = value\" does");
+    if (value.empty() && !may_clear) throw ValueError("has no value");
+    return value.empty() ? path + " =" : path + " = " + value;
+  });
+}
+
 } // namespace platen::apps

@@ -92,7 +92,7 @@ const char *word(Measure measure) {
   return measure_words[static_cast<std::size_t>(measure)];
 }
 
-void Accuracy::add(const StudyRun &run, const RunOutcome &outcome) {
+void Accuracy::add(const TestRun &run, const RunOutcome &outcome) {
   const auto number = [&](const char *key) { return number_in(outcome.summary, key); };
   const bool peaked = StudyTables::peaked(outcome.summary);
   cases_[run.of].push_back(

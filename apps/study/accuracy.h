@@ -10,7 +10,7 @@
 #include "apps/output/seed_statistics.h"
 #include "apps/output/summary.h"
 #include "apps/study/cases.h"
-#include "apps/study/runs.h"
+#include "apps/many/runs.h"
 
 namespace platen::apps {
 
@@ -38,7 +38,7 @@ public:
   explicit Accuracy(const StudyPlan &plan) : plan_(plan), cases_(plan.cases.size()) {}
 
   // Runs, in their order. A run that failed or never peaked has no strength and no strain at the peak.
-  void add(const StudyRun &run, const RunOutcome &outcome);
+  void add(const TestRun &run, const RunOutcome &outcome);
 
   // Once all runs are there, by parameters of the plan.
   std::vector<ParameterErrors> errors() const;

@@ -45,7 +45,7 @@ CountedCosts with_libraries(CountedCosts costs) {
 }
 
 // Of the first run of a case.
-CountedCosts costs_of_run(const StudyRun &run) {
+CountedCosts costs_of_run(const TestRun &run) {
   try {
     return with_libraries(counted_costs(read_scene(run.scene, run.overrides, program("compress"))));
   } catch (const std::exception &) { // which its run will tell
@@ -65,7 +65,7 @@ std::string line_of(const std::vector<CsvCell> &cells) {
 // What runs are called and what they change: no path, no machine.
 std::string sum_of_runs(const PlannedStudy &study) {
   std::string text;
-  for (const StudyRun &run : study.runs)
+  for (const TestRun &run : study.runs)
     text +=
         fmt::format("{}\n{}\n{}\n", run.name, fmt::join(study.plan.cases[run.of].overrides, "\n"), run.seed);
   return sha256_of(text);
@@ -127,7 +127,7 @@ std::string plan_text(const PlannedStudy &study) {
   std::string text = line_of({columns.begin(), columns.end()});
   CountedCosts costs;
   for (std::size_t k = 0; k < study.runs.size(); ++k) {
-    const StudyRun &run = study.runs[k];
+    const TestRun &run = study.runs[k];
     if (k == 0 || run.of != study.runs[k - 1].of) costs = costs_of_run(run);
     const std::string folder = run.folder.lexically_relative(study.paths.folder).string(),
                       overrides = fmt::format("{}", fmt::join(run.overrides, "; "));

@@ -9,7 +9,7 @@
 #include "apps/output/summary.h"
 #include "apps/scene/scene.h"
 #include "apps/study/cases.h"
-#include "apps/study/runs.h"
+#include "apps/many/runs.h"
 
 namespace platen::apps {
 
@@ -17,7 +17,7 @@ namespace platen::apps {
 struct PlannedStudy {
   const Scene &scene;
   const StudyPlan &plan;
-  const std::vector<StudyRun> &runs;
+  const std::vector<TestRun> &runs;
   const OutputPaths &paths;
   std::string command; // "platen-study friction a.prm -o results/a", for what can be done next
 };

@@ -35,14 +35,14 @@ std::unique_ptr<FileLock> lock_byte(const PlannedStudy &study, std::uint64_t byt
 }
 
 // What --run says of a run that has begun and is not done: NAME.run.json beside its folder.
-Json record_of(const PlannedStudy &study, const StudyRun &run) {
+Json record_of(const PlannedStudy &study, const TestRun &run) {
   const ReadSummary read = read_summary(study.paths.run_record(run.name));
   const bool ours = read.fault.empty() && text_in(read.summary, "version") == version_line() &&
                     text_in(read.summary, "scene_sha256") == sha256_of_file(study.paths.scene()).value_or("");
   return ours ? read.summary : Json::object();
 }
 
-void write_record(const PlannedStudy &study, const StudyRun &run, const std::string &status,
+void write_record(const PlannedStudy &study, const TestRun &run, const std::string &status,
                   const RunOutcome &outcome = {}) {
   Json record{{"name", run.name}, {"status", status}, {"version", version_line()}};
   record["scene_sha256"] = sha256_of_file(study.paths.scene()).value_or("");
@@ -50,7 +50,7 @@ void write_record(const PlannedStudy &study, const StudyRun &run, const std::str
   write_summary(study.paths.run_record(run.name), record);
 }
 
-const StudyRun &run_of_number(const PlannedStudy &study, int number) {
+const TestRun &run_of_number(const PlannedStudy &study, int number) {
   if (static_cast<std::size_t>(number) > study.runs.size())
     throw InputError(fmt::format("command line: error: --run = {} is not in the plan. Allowed: 1 ... {}.",
                                  number, study.runs.size()));
@@ -73,7 +73,7 @@ std::string ranges_of(const std::vector<std::size_t> &numbers) {
 
 // What is there of a run that nobody has carried out here.
 RunOutcome found(const PlannedStudy &study, std::size_t k) {
-  const StudyRun &run = study.runs[k];
+  const TestRun &run = study.runs[k];
   const auto missing = [](const std::string &why) { return RunOutcome{false, false, why, {}, 0, true}; };
   if (FileLock::is_taken(study.paths.log(), k + 1)) return missing("at work");
   Left left = left_by(run);
@@ -124,7 +124,7 @@ int plan_runs(const CommandLine &command, const PlannedStudy &study, RunLog &log
 
 int make_planned_run(const CommandLine &command, const PlannedStudy &study, RunLog &log) {
   require_plan(study);
-  StudyRun run = run_of_number(study, command.run);
+  TestRun run = run_of_number(study, command.run);
   const std::unique_ptr<FileLock> lock =
       lock_byte(study, static_cast<std::uint64_t>(command.run),
                 fmt::format("run {} of the plan, {}, is at work already", command.run, run.name), log);

@@ -26,7 +26,6 @@
 #include "apps/scene/version.h"
 #include "apps/study/cases.h"
 #include "apps/study/planned_runs.h"
-#include "apps/study/process.h"
 #include "apps/study/runs.h"
 #include "apps/study/study_results.h"
 #include "apps/study/target_app.h"
@@ -53,7 +52,7 @@ public:
         scene_(scene),
         plan_(plan_study(study_kind(command.kind), scene, command.overrides)),
         paths_(command.output),
-        runs_(targets() ? std::vector<StudyRun>{}
+        runs_(targets() ? std::vector<TestRun>{}
                         : runs_of(plan_, command.scene, command.overrides, paths_, threads(),
                                   command.run > 0 || command.plan || command.collect)),
         log_(loudness_of(command)) {}
@@ -79,7 +78,7 @@ private:
   Clock::time_point start_ = Clock::now();
   OutputPaths paths_;
   std::unique_ptr<FileLock> lock_; // of the folder
-  std::vector<StudyRun> runs_;
+  std::vector<TestRun> runs_;
   RunLog log_;
 };
 
@@ -111,15 +110,13 @@ int StudyApp::tell_costs() const {
   for (std::size_t k = 0; k < runs_.size(); k += plan_.seeds.size()) {
     fmt::print("\n{}\n", runs_[k].name);
     std::fflush(stdout);
-    std::vector<std::string> command = runs_[k].command;
-    command.emplace_back("--dry-run");
-    Process process = start_compress(command, Process::Output::ours);
+    Process process = start(runs_[k], {"--dry-run"}, Process::Output::ours);
     while (process.running())
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     if (process.status() == status_bad_input) throw InputError(runs_[k].name + ": " + process.errors());
     if (process.status() != status_done) throw std::runtime_error(runs_[k].name + ": " + process.errors());
   }
-  const auto seconds = [](double sum, const StudyRun &run) { return sum + run.seconds; };
+  const auto seconds = [](double sum, const TestRun &run) { return sum + run.seconds; };
   const double all = std::accumulate(runs_.begin(), runs_.end(), 0.0, seconds);
   const auto at_a_time =
       static_cast<double>(std::min<std::size_t>(runs_.size(), static_cast<std::size_t>(threads())));

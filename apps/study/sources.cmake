@@ -7,7 +7,6 @@ set(PLATEN_STUDY_SOURCES
   study/plan_file.cc
   study/planned_runs.cc
   study/platen_cases.cc
-  study/process.cc
   study/run_study.cc
   study/runs.cc
   study/study_results.cc

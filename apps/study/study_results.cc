@@ -31,7 +31,7 @@ std::vector<std::string> missed_in(const Json &expectations) {
   return missed;
 }
 
-Json tell_outcome(const Scene &scene, StudyKind kind, const std::string &head, const StudyRun &run,
+Json tell_outcome(const Scene &scene, StudyKind kind, const std::string &head, const TestRun &run,
                   const RunOutcome &outcome, RunLog &log) {
   if (!outcome.done) {
     log.warning("{}: {}, {}", head, word(outcome), outcome.reason);
@@ -49,7 +49,7 @@ Json tell_outcome(const Scene &scene, StudyKind kind, const std::string &head, c
   return expectations;
 }
 
-StudyResults::StudyResults(const Scene &scene, const StudyPlan &plan, const std::vector<StudyRun> &runs,
+StudyResults::StudyResults(const Scene &scene, const StudyPlan &plan, const std::vector<TestRun> &runs,
                            const OutputPaths &paths, RunLog &log)
     : scene_(scene),
       plan_(plan),

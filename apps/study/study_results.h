@@ -8,14 +8,14 @@
 #include "apps/output/run_log.h"
 #include "apps/study/accuracy.h"
 #include "apps/study/cases.h"
-#include "apps/study/runs.h"
+#include "apps/many/runs.h"
 #include "apps/study/tables.h"
 
 namespace platen::apps {
 
 // Says what came of a run, after `head`, and which numbers that the scene expects it missed. Returns what the
 // scene expects of it, as its summary would have it (apps/scene/expect.h), each with the name of the `run`.
-Json tell_outcome(const Scene &scene, StudyKind kind, const std::string &head, const StudyRun &run,
+Json tell_outcome(const Scene &scene, StudyKind kind, const std::string &head, const TestRun &run,
                   const RunOutcome &outcome, RunLog &log);
 // "NAME: why" of each of them that is not met.
 std::vector<std::string> missed_in(const Json &expectations);
@@ -23,7 +23,7 @@ std::vector<std::string> missed_in(const Json &expectations);
 class StudyResults {
 public:
   // Begins the tables anew. All but the scene's text has to outlive this.
-  StudyResults(const Scene &scene, const StudyPlan &plan, const std::vector<StudyRun> &runs,
+  StudyResults(const Scene &scene, const StudyPlan &plan, const std::vector<TestRun> &runs,
                const OutputPaths &paths, RunLog &log);
 
   // Of run k when it has ended, the how manieth of all.
@@ -41,7 +41,7 @@ private:
 
   const Scene &scene_;
   const StudyPlan &plan_;
-  const std::vector<StudyRun> &runs_;
+  const std::vector<TestRun> &runs_;
   const OutputPaths &paths_;
   RunLog &log_;
   StudyTables tables_;

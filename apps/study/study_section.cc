@@ -38,18 +38,6 @@ std::vector<Quality> read_qualities(const std::string &text) {
       text, [&](const std::string &item) { return quality_words()[read_word(item, words)].kind; });
 }
 
-// "Effects/Rotation = off, Platens/Degree = 2": path and value of each, tidied; "" is none.
-std::vector<std::string> read_assignments(const std::string &text) {
-  return read_items<std::string>(text, [](const std::string &item) {
-    const std::size_t sign = item.find('=');
-    if (sign == std::string::npos) throw ValueError("sets nothing: \"Section/Key = value\" does");
-    const std::string path = tidy(item.substr(0, sign)), value = tidy(item.substr(sign + 1));
-    if (path.find('/') == std::string::npos) throw ValueError("names no entry: \"Section/Key = value\" does");
-    if (value.empty()) throw ValueError("has no value");
-    return path + " = " + value;
-  });
-}
-
 // "Platens/Friction static: 0, 0.1, 0.3"; "" varies nothing.
 Varied read_varied(const std::string &text) {
   if (text.empty()) return {};

@@ -129,7 +129,7 @@ StudyTables::StudyTables(const StudyPlan &plan, const OutputPaths &paths)
         of.figures[key];
 }
 
-void StudyTables::add(const StudyRun &run, const RunOutcome &outcome) {
+void StudyTables::add(const TestRun &run, const RunOutcome &outcome) {
   const StudyCase &of = plan_.cases[run.of];
   OfCase &sums = cases_[run.of];
   std::vector<CsvCell> cells{word(plan_.kind), of.name};

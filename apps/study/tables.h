@@ -11,7 +11,7 @@
 #include "apps/output/summary.h"
 #include "apps/study/cases.h"
 #include "apps/study/comparisons.h"
-#include "apps/study/runs.h"
+#include "apps/many/runs.h"
 
 namespace platen::apps {
 
@@ -24,7 +24,7 @@ public:
   StudyTables(const StudyPlan &plan, const OutputPaths &paths);
 
   // Rows of a run, in the order of the runs.
-  void add(const StudyRun &run, const RunOutcome &outcome);
+  void add(const TestRun &run, const RunOutcome &outcome);
 
   int failed() const, missing() const; // runs
   // Whether a run is known to have borne its most: its stress fell to 0.8 of the peak, where damage is

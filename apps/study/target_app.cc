@@ -25,7 +25,7 @@ public:
   Expecting(const Scene &scene, const TargetCases &cases) : scene_(scene), other_(scene), cases_(cases) {
     other_.expect.clear();
   }
-  const Scene &of(const StudyRun &run) const { return run.of < cases_.speeds ? scene_ : other_; }
+  const Scene &of(const TestRun &run) const { return run.of < cases_.speeds ? scene_ : other_; }
 
 private:
   const Scene &scene_;
@@ -76,7 +76,7 @@ void write_results(const TargetStudy &study, const StudyTables &tables, const Js
 }
 
 // What a run has left, nothing made.
-std::optional<RunOutcome> found(const StudyRun &run) {
+std::optional<RunOutcome> found(const TestRun &run) {
   Left left = left_by(run);
   if (left.summary) return RunOutcome{true, true, "", std::move(*left.summary), 0, false};
   if (left.fault.empty() && left.status == "failed") return RunOutcome{};
@@ -93,10 +93,10 @@ int tell_target_plan(const TargetSetup &setup) {
   TargetStudy study(setup);
   std::size_t there = 0, asked = 0;
   study.work(
-      [&](const std::vector<StudyRun> &batch) {
+      [&](const std::vector<TestRun> &batch) {
         std::vector<std::optional<RunOutcome>> outcomes;
         there = 0, asked = batch.size();
-        for (const StudyRun &run : batch) {
+        for (const TestRun &run : batch) {
           outcomes.push_back(found(run));
           if (outcomes.back()) ++there;
         }
@@ -110,7 +110,7 @@ int tell_target_plan(const TargetSetup &setup) {
         "no plan can be made yet: {} of {} runs of the pilot are there. Make these alone with\n  {}{}\n"
         "and plan again with --dry-run.\n",
         there, asked, setup.command, shell_entry(fmt::format("Study/Target/Most runs = {}", asked)));
-    for (const StudyRun &run : study.batch())
+    for (const TestRun &run : study.batch())
       fmt::print("  {}\n", run.name);
     return status_done;
   }
@@ -127,7 +127,7 @@ int make_target(const TargetSetup &setup, RunLog &log, const std::function<Json(
   StudyTables tables(setup.plan, setup.paths);
   const Expecting expecting(setup.scene, target_cases(setup.scene));
   Json expectations = Json::array();
-  const auto carry = [&](const std::vector<StudyRun> &batch) {
+  const auto carry = [&](const std::vector<TestRun> &batch) {
     carry_out(batch, setup.threads, log, [&](std::size_t k, const RunOutcome &outcome) {
       study.add(k, outcome);
       tables.add(batch[k], outcome);

@@ -54,7 +54,7 @@ double TargetFigures::spheres() const {
   return with_spheres_ == 0 ? counted_spheres_ : spheres_ / static_cast<double>(with_spheres_);
 }
 
-void TargetFigures::add(const StudyRun &run, std::size_t packing, const RunOutcome &outcome) {
+void TargetFigures::add(const TestRun &run, std::size_t packing, const RunOutcome &outcome) {
   const Json &summary = outcome.summary;
   while (logs_.size() <= packing) {
     logs_.emplace_back(works_.size(), std::nan(""));

@@ -5,7 +5,8 @@
 #include <array>
 #include <vector>
 
-#include "apps/study/runs.h"
+#include "apps/many/runs.h"
+#include "apps/study/cases.h"
 #include "apps/study/study_section.h"
 #include "apps/study/target_plan.h"
 
@@ -24,7 +25,7 @@ public:
   explicit TargetFigures(const Scene &scene);
 
   // Of case `run.of` on the packing of that number, from 0 on. A run that failed or never peaked has none.
-  void add(const StudyRun &run, std::size_t packing, const RunOutcome &outcome);
+  void add(const TestRun &run, std::size_t packing, const RunOutcome &outcome);
 
   // Logarithms of the figure; of a gain differences of both scenes.
   TargetRuns runs() const;

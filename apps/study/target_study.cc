@@ -5,6 +5,7 @@
 
 #include "apps/study/study_section.h"
 #include "apps/study/target_prior.h"
+#include "apps/study/runs.h"
 
 namespace platen::apps {
 namespace {
@@ -53,9 +54,8 @@ std::vector<unsigned long> TargetStudy::seeds() const {
 }
 
 void TargetStudy::add_to_batch(std::size_t of_case, std::size_t packing) {
-  StudyRun run = run_of(setup_.plan, of_case, setup_.scene.general.seed + packing, setup_.scene_path,
-                        setup_.overrides, setup_.paths, 1);
-  run.command.insert(run.command.end(), {"--packings", setup_.paths.packings().string()});
+  TestRun run = run_of(setup_.plan, of_case, setup_.scene.general.seed + packing, setup_.scene_path,
+                        setup_.overrides, setup_.paths, 1, setup_.paths.packings());
   run.specimen_of = batch_.size();
   batch_.push_back(std::move(run));
   packings_.push_back(packing);

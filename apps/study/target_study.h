@@ -36,7 +36,7 @@ public:
   explicit TargetStudy(const TargetSetup &setup);
 
   // Runs of a batch, in their order. False where they are not all there: nothing further is decided then.
-  using Carry = std::function<bool(const std::vector<StudyRun> &)>;
+  using Carry = std::function<bool(const std::vector<TestRun> &)>;
   using Told = std::function<void()>; // after each decision
   // Asks for batches until the study ends; false where a batch was not carried out.
   bool work(const Carry &carry, const Told &told);
@@ -49,7 +49,7 @@ public:
   const TargetState &state() const { return state_; }
   const Decision &decision() const { return decision_; }
   const std::vector<TargetLook> &looks() const { return looks_; }
-  const std::vector<StudyRun> &batch() const { return batch_; }
+  const std::vector<TestRun> &batch() const { return batch_; }
   Aim aim() const;
   // Relative error for the time step: the allowance, or more where runs with half the step say so.
   double step_error() const;
@@ -67,7 +67,7 @@ private:
   TargetState state_;
   Decision decision_;
   std::vector<TargetLook> looks_;
-  std::vector<StudyRun> batch_;
+  std::vector<TestRun> batch_;
   std::vector<std::size_t> packings_; // of the batch
 };
 

@@ -131,7 +131,7 @@ protected:
   Accuracy accuracy_{plan_};
 
   void add(std::size_t of, std::size_t seed, double strength, double seconds, double broken = 100) {
-    StudyRun run;
+    TestRun run;
     run.of = of;
     run.seed = plan_.seeds[seed];
     RunOutcome outcome;

@@ -6,19 +6,20 @@
 
 #include "apps/programs.h"
 #include "apps/scene/parameters.h"
-#include "apps/study/runs.h"
+#include "apps/study/cases.h"
+#include "apps/many/runs.h"
 
 namespace {
 
 using namespace platen::apps;
 
-StudyRun run(std::size_t specimen_of, double seconds) {
-  StudyRun run;
+TestRun run(std::size_t specimen_of, double seconds) {
+  TestRun run;
   run.specimen_of = specimen_of, run.seconds = seconds;
   return run;
 }
 
-std::vector<std::size_t> order(const std::vector<StudyRun> &runs) {
+std::vector<std::size_t> order(const std::vector<TestRun> &runs) {
   return order_of_start(runs, 2);
 }
 

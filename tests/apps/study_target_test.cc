@@ -133,7 +133,7 @@ TEST_F(OverScene, without_a_strength_is_refused) {
 }
 
 void add(TargetFigures &figures, std::size_t of, std::size_t packing, double strength, double steps) {
-  StudyRun run;
+  TestRun run;
   run.of = of;
   RunOutcome outcome;
   outcome.done = true;

@@ -1,5 +1,5 @@
 // Programs and functions run as processes of their own.
-#include "apps/study/process.h"
+#include "apps/many/process.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -42,4 +42,10 @@ private:
 
 bool has_one_thread();
 
+// What work(k) returns for each k of [0, count), each in a process of its own, so that no thread that it
+// starts is left in this one; at most so many at a time. Texts of some thousand bytes. What one throws is
+// thrown here: InputError, OutputError, else std::runtime_error. Throws Stopped after a signal.
+std::vector<std::string> answers(std::size_t count, int at_a_time,
+                                 const std::function<std::string(std::size_t)> &work);
+
 } // namespace platen::apps

@@ -1,4 +1,4 @@
-#include "apps/study/process.h"
+#include "apps/many/process.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -7,15 +7,21 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <iterator>
+#include <list>
+#include <stdexcept>
 #include <system_error>
+#include <thread>
 #include <utility>
 
+#include "apps/output/stop_signal.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps {
@@ -150,6 +156,49 @@ bool has_one_thread() {
   std::error_code failure;
   const std::filesystem::directory_iterator tasks("/proc/self/task", failure);
   return !failure && std::distance(begin(tasks), end(tasks)) == 1;
+}
+
+std::vector<std::string> answers(std::size_t count, int at_a_time,
+                                 const std::function<std::string(std::size_t)> &work) {
+  std::vector<std::string> all(count);
+  std::list<std::pair<std::size_t, Process>> active;
+  const auto body = [&work](std::size_t k) {
+    try {
+      std::cerr << work(k);
+      return status_done;
+    } catch (const InputError &error) {
+      std::cerr << error.what();
+      return status_bad_input;
+    } catch (const OutputError &error) {
+      std::cerr << error.what();
+      return status_output;
+    } catch (const std::exception &error) {
+      std::cerr << error.what();
+      return status_numerics;
+    }
+  };
+  for (std::size_t next = 0; next < count || !active.empty();) {
+    if (stop_requested() != 0) throw Stopped{stop_requested()};
+    for (; next < count && active.size() < static_cast<std::size_t>(std::max(1, at_a_time)); ++next)
+      active.emplace_back(next, Process(
+                                    {"answer"}, [&body, next](int, char **) { return body(next); },
+                                    Process::Output::dropped));
+    for (auto one = active.begin(); one != active.end();) {
+      if (one->second.running()) {
+        ++one;
+        continue;
+      }
+      const std::string text = one->second.errors();
+      const int status = one->second.status();
+      if (status == status_bad_input) throw InputError(text);
+      if (status == status_output) throw OutputError(text);
+      if (status != status_done) throw std::runtime_error(text);
+      all[one->first] = text;
+      one = active.erase(one);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return all;
 }
 
 } // namespace platen::apps
