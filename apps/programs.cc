@@ -98,7 +98,7 @@ Program brazilian() {
   p.name = "platen-brazilian";
   p.purpose = "Splits a disc of bonded spheres along its diameter between two flat platens or strips.";
   p.presses = Presses::discs;
-  p.caches_packings = p.on_ranks = true;
+  p.shares_packings = p.caches_packings = p.on_ranks = true;
   p.reads = shared();
   p.but = joined_lists({of_whole_tests(), of_cells()});
   return p;

@@ -5,5 +5,6 @@ set(PLATEN_PROGRAM_SOURCES
   bonds/pair_section.cc
   calibrate/calibrate_checks.cc
   calibrate/calibrate_section.cc
-  calibrate/targets.cc
+  calibrate/choice.cc
+  calibrate/target.cc
   study/study_section.cc)

@@ -1,5 +1,6 @@
 #include "apps/calibrate/abacus.h"
 #include "apps/calibrate/calibrate_section.h"
+#include "apps/output/csv_writer.h"
 #include "apps/output/numbers.h"
 #include "apps/output/seed_statistics.h"
 
@@ -41,6 +42,7 @@ Json make_abacus(const Scene &scene, const OutputPaths &paths, Trials &trials, R
       if (linear) asked.back().choice[Knob::modulus] = scene.model.bond_layout.modulus;
     }
   const std::vector<TrialResult> results = trials(asked);
+  const auto young_of = [](const TrialResult &r) { return r.number("youngs_modulus_gauge_pa"); };
 
   WholeTable table(paths.folder / "abacus.csv", cells_of(columns));
   Json rows = Json::array();
@@ -54,11 +56,11 @@ Json make_abacus(const Scene &scene, const OutputPaths &paths, Trials &trials, R
     for (std::size_t s = 0; s < seeds.size(); ++s) {
       const TrialResult &r = results[k * seeds.size() + s];
       const double scale = linear ? c[Knob::modulus] / scene.model.bond_layout.modulus : 1.0;
-      const dem::NetworkModuli b = bounds_of(scene, trials.packing(seeds[s]), c);
+      const dem::NetworkModuli b = bounds_of(trials.with(c, seeds[s]), trials.packing(seeds[s]));
       table.row({seeds[s], c[Knob::modulus], ratio, c[Knob::radius_multiplier], bond_poisson,
-                 scale * r.young_modulus, scale * r.platen_modulus, r.poisson_ratio, b.young_voigt,
-                 b.poisson_voigt, b.young_reuss, b.poisson_reuss});
-      if (r.good()) young.add(scale * r.young_modulus), poisson.add(r.poisson_ratio);
+                 scale * young_of(r), scale * r.number("youngs_modulus_platen_pa"), r.number("poisson_ratio"),
+                 b.young_voigt, b.poisson_voigt, b.young_reuss, b.poisson_reuss});
+      if (r.good()) young.add(scale * young_of(r)), poisson.add(r.number("poisson_ratio"));
       voigt.add(b.young_voigt), voigt_poisson.add(b.poisson_voigt);
     }
     log.info("  {:>10.5g} {:>7.4g} {:>10.4g} {:>7.4g} {:>12.5g} {:>9.2g} {:>9.4f} {:>12.5g} {:>9.4f}",

@@ -39,12 +39,12 @@ Eigen::MatrixXd sensitivities_of(const Goals &goals, const Sensitivities &at) {
   return table;
 }
 
-std::string direction(const std::vector<Knob> &knobs, const Eigen::VectorXd &way) {
+std::string direction(const Calibrate &asked, const std::vector<Knob> &knobs, const Eigen::VectorXd &way) {
   std::string text;
   for (std::size_t k = 0; k < knobs.size(); ++k) {
     const double share = way[static_cast<Eigen::Index>(k)];
     if (std::abs(share) >= worth_telling)
-      text += fmt::format("{}{} {:+.2f}", text.empty() ? "" : ", ", facts_of(knobs[k]).words, share);
+      text += fmt::format("{}{} {:+.2f}", text.empty() ? "" : ", ", facts_of(asked, knobs[k]).words, share);
   }
   return text;
 }
@@ -64,12 +64,13 @@ Analysis analyse(const Goals &goals, double tolerance, const Sensitivities &at) 
   a.correlations = scales.asDiagonal() * inverse * scales.asDiagonal();
   for (Eigen::Index k = 0; k < values.size(); ++k) {
     if (half * std::sqrt(std::max(values[k], 0.0)) < tolerance)
-      a.undetermined.push_back(direction(at.knobs, solved.eigenvectors().col(k)));
+      a.undetermined.push_back(direction(goals.asked(), at.knobs, solved.eigenvectors().col(k)));
     for (Eigen::Index other = 0; other < k; ++other)
       if (std::abs(a.correlations(k, other)) > closely)
-        a.correlated.push_back(
-            fmt::format("{} against {} ({:+.3f})", facts_of(at.knobs[static_cast<std::size_t>(other)]).words,
-                        facts_of(at.knobs[static_cast<std::size_t>(k)]).words, a.correlations(k, other)));
+        a.correlated.push_back(fmt::format(
+            "{} against {} ({:+.3f})",
+            facts_of(goals.asked(), at.knobs[static_cast<std::size_t>(other)]).words,
+            facts_of(goals.asked(), at.knobs[static_cast<std::size_t>(k)]).words, a.correlations(k, other)));
   }
   return a;
 }

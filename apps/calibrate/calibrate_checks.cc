@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "apps/calibrate/targets.h"
+#include "apps/calibrate/choice.h"
 #include "apps/scene/scene_check.h"
 #include "apps/scene/units.h"
 #include "apps/scene/values.h"
@@ -71,56 +71,28 @@ void check_calibrate_bounds(const SceneCheck &check) {
                               : "is below the bond's own, which is the smallest where none is given.");
 }
 
+// What a test of it cannot be is found when its scene is read (require_tests).
 void check_target(const SceneCheck &check, const Target &target) {
   if (target.is_elastic()) return;
-  const bool own = given(target.rate) ||
-                   (target.kind == TargetKind::tension && given(calibrate_of(check.scene()).tension_rate));
-  if (!own) check.need("Loading/Axial rate", check.scene().loading.rate, "the platens have to move.");
   for (const char *strength : {"tensile_strength", "shear_strength"})
     if (check.scene().bond.number(strength) == 0)
       check.refuse(std::string("Bond/") + (strength[0] == 't' ? "Tensile strength" : "Shear strength"),
                    "is no number that the search for strengths could begin with. Allowed: > 0 Pa.");
-  const SpecimenSection &specimen = check.scene().specimen;
-  const bool cylinder = specimen.shape == SpecimenShape::cylinder,
-             other = given(target.slenderness) || target.kind == TargetKind::splitting ||
-                     target.kind == TargetKind::cube_over_prism || target.kind == TargetKind::slenderness;
-  if (!cylinder && specimen.shape != SpecimenShape::box)
-    check.refuse("Specimen/Shape", "is not crushed by platen-calibrate. Allowed: cylinder, box.");
-  if (other && specimen.packing == PackingKind::file)
-    check.refuse(target.entry,
-                 "needs a specimen of another shape than Specimen/File has. Allowed: Specimen/Packing "
-                 "= advancing front, random close.");
-  if (target.kind == TargetKind::splitting && !cylinder)
-    check.refuse(target.entry,
-                 "is of a disc as wide as the scene's cylinder. Allowed: Specimen/Shape = cylinder.");
-  if (target.sleeve && (target.box || !cylinder))
-    check.refuse(target.entry, "wants a sleeve around a box. Allowed: Cell = particles, or Form = cylinder.");
-  if (target.kind == TargetKind::gain_by_friction && target.friction <= target.other_friction)
-    check.refuse(
-        target.entry.substr(0, target.entry.rfind('/')) + "/Platens",
-        "has no more friction than the other platens, " + shortest_text(target.other_friction) + ".");
-  if (target.kind == TargetKind::slenderness && target.slenderness == 2)
-    check.refuse(target.entry.substr(0, target.entry.rfind('/')) + "/Slenderness",
-                 "is that of the specimen that it is compared with. Allowed: any other.");
-  if (target.kind == TargetKind::strength_at_pressure &&
-      check.scene().loading.confinement != ConfinementKind::none)
-    check.refuse("Loading/Confinement", "would act on the compressive strength too; " + target.entry +
-                                            " brings its own. Allowed: none.");
-  if (target.kind == TargetKind::curve)
-    check.readable(target.entry.substr(0, target.entry.rfind('/')) + "/File", target.file,
-                   "Kind = curve has its points there.");
+  if (target.curve > 0)
+    check.readable("Calibrate/Curve " + std::to_string(target.curve), target.file,
+                   target.entry + " has its points there.");
 }
 
 void check_free_parameters(const SceneCheck &check) {
   const Calibrate &c = calibrate_of(check.scene());
-  if (c.free.empty()) return;
   std::size_t count = 0;
   for (const Target &target : c.targets)
     count += target.kind == TargetKind::curve ? counts_of_a_curve : 1;
-  if (c.free.size() > count)
-    check.refuse("Calibrate/Free", "frees more parameters than the targets can tell: " +
-                                       std::to_string(c.free.size()) + " for " + std::to_string(count) +
-                                       ". Allowed: as many as targets; a curve counts for three.");
+  if (c.free.size() + c.freed.size() > count)
+    check.refuse(
+        c.free.empty() ? "Calibrate/Parameter 1" : "Calibrate/Free",
+        "frees more parameters than the targets can tell: " + std::to_string(c.free.size() + c.freed.size()) +
+            " for " + std::to_string(count) + ". Allowed: as many as targets; a curve counts for three.");
   for (const Knob knob : c.free)
     if (!has_knob(check.scene(), knob))
       check.refuse("Calibrate/Free", "holds " + word_of(free_knobs, knob) + ", which Effects/Bond = " +
@@ -161,7 +133,7 @@ void check_calibrate(const SceneCheck &check) {
   if (c.targets.empty() && !check.parameters().faults().any_in("Calibrate"))
     check.refuse(
         "Calibrate/Mode",
-        "has nothing to search for. Allowed: bounds, abacus, or a wanted Young modulus, Poisson ratio or "
+        "has nothing to search for. Allowed: bounds, abacus, or a Young modulus, Poisson ratio or "
         "strength, or a Calibrate/Target 1.");
   for (const Target &target : c.targets)
     check_target(check, target);

@@ -1,74 +1,63 @@
-// What platen-calibrate looks for: keys for the common numbers, and targets, sections alike.
+// What platen-calibrate looks for: keys for the common numbers, and lines for all others.
 #include "apps/calibrate/calibrate_section.h"
 
-#include "apps/calibrate/targets.h"
+#include <algorithm>
+#include <cmath>
+
+#include "apps/calibrate/choice.h"
 #include "apps/scene/members.h"
 #include "apps/scene/scene_check.h"
+#include "apps/scene/units.h"
+#include "apps/scene/values.h"
 
 namespace platen::apps {
 namespace {
 
-void declare_test_of_target(Section &section, TargetSection &to, const std::string &kind) {
-  Section in_cell = section.only_if(kind, {"strength at pressure"});
-  in_cell
-      .entry("Pressure", to.pressure, "Pa", above(0),
-             "Of the cell; the strength is the largest axial stress, the pressure included.")
-      .needed_if(kind, {"strength at pressure"});
-  in_cell.entry<ConfinementKind>(
-      "Cell", to.cell, {{"particles", ConfinementKind::particles}, {"sleeve", ConfinementKind::sleeve}},
-      "How the pressure acts: as Loading/Confinement; particles are cheaper.");
-  Section broken = section.unless(kind, {"young modulus", "poisson ratio"}),
-          pressed = broken.unless(kind, {"tension"}), upright = pressed.unless(kind, {"splitting"});
-  upright
-      .entry<TargetForm>(
-          "Form", to.form,
-          {{"scene", TargetForm::scene}, {"cylinder", TargetForm::cylinder}, {"box", TargetForm::box}},
-          "Of the specimen; a box is as wide as the scene's cylinder, a cylinder as its box. Cube over prism "
-          "has boxes.")
-      .unless(kind, {"cube over prism"});
-  upright.number("Slenderness", to.slenderness, between(0.1, 20),
-                 "Height over width of the specimen; where not given, the scene's. Cube over prism: of the "
-                 "prism, 2.4 where not given. Kind = slenderness: of the short specimen, 1 where not given.");
-  const char *faces = "dry steel, thesis, teflon, grease, or a coefficient of friction (0 ... 5)";
-  pressed.value("Platens", to.platens, "", faces, read_platens_of_target,
-                "What the specimen stands between; where not given, the scene's platens.");
-  section
-      .value("Other platens", to.other_platens, "", faces, read_platens_of_target,
-             "That the gain is over; where not given, without friction.")
-      .only_if(kind, {"gain by friction"});
-  broken.entry(
-      "Rate", to.rate, "m/s", above(0),
-      "Speed of its tests; where not given, Loading/Axial rate for the scene's height, in proportion "
-      "for other ones; in tension Calibrate/Tension rate, in splitting a quarter.");
-  broken.number("Largest strain", to.strain, above_up_to(0, 1),
-                "Where its tests end without a peak; where not given, Loading/Target strain, more for "
-                "specimens of a slenderness below 2, a quarter in tension, half in splitting.");
+// "tensile strength, friction angle": words of free_knobs, each once; "" is none.
+std::vector<Knob> read_knobs(const std::string &text) {
+  std::vector<std::string> words;
+  for (const auto &one : free_knobs)
+    words.push_back(one.first);
+  std::vector<Knob> knobs;
+  return read_items<Knob>(text, [&](const std::string &item) {
+    const Knob knob = free_knobs[read_word(item, words)].second;
+    if (std::find(knobs.begin(), knobs.end(), knob) != knobs.end()) throw ValueError("is there twice");
+    knobs.push_back(knob);
+    return knob;
+  });
 }
 
-void declare_target(Parameters &parameters, TargetSection &to, std::size_t number) {
-  Section section(parameters, section_of_target(number));
-  const std::string kind = section.name() + "/Kind";
-  section.entry(
-      "Kind", to.kind, target_kinds,
-      "What is wanted. Young modulus and Poisson's ratio of the specimen's middle; tension between "
-      "glued ends; splitting of a disc as thick as its radius; gain by friction: strength over that "
-      "between the other platens; slenderness: strength over that of a specimen twice as high as wide, "
-      "between the same platens; secant ratio: Poisson's ratio to 40 % of the strength; curve: "
-      "stresses of a test of the user's own.");
-  section.text("Value", to.value, "The number wanted, with its unit.");
-  parameters.declared(section.name() + "/Value").is_text = false; // read as a number when its kind is known
-  section
-      .file(
-          "File", to.file,
-          "Of a curve: CSV with a header, strain_platen or strain_gauge and stress_pa or stress_mpa, a row a "
-          "point, from small strains to large, compression positive.")
-      .only_if(kind, {"curve"});
-  section.number("Weight", to.weight, above(0),
-                 "Of the square of its miss over its tolerance, among others.");
-  section.number("Tolerance", to.tolerance, above_up_to(0, 0.5),
-                 "Relative difference that is near enough; of a curve the root mean square over its largest "
-                 "stress. Where not given, Calibrate/Tolerance.");
-  declare_test_of_target(section, to, kind);
+// "Contact/Rolling friction: 0.01 ... 0.5"; "" frees nothing. Its numbers are read when all is.
+FreedEntry read_freed(const std::string &text) {
+  if (text.empty()) return {};
+  const std::size_t colon = text.find(':'), dots = text.find("...");
+  const std::string path = tidy(text.substr(0, colon));
+  if (colon == std::string::npos || dots == std::string::npos || path.find('/') == std::string::npos)
+    throw ValueError("frees no entry: \"Section/Key: low ... high\" does");
+  FreedEntry freed;
+  freed.path = path, freed.from = tidy(text.substr(colon + 1, dots - colon - 1));
+  freed.to = tidy(text.substr(dots + 3));
+  if (freed.from.empty() || freed.to.empty()) throw ValueError("has no bound on one side");
+  return freed;
+}
+
+void declare_lines(Section &section, Calibrate &c) {
+  for (std::size_t k = 0; k < c.lines.size(); ++k)
+    section.value("Target " + std::to_string(k + 1), c.lines[k], "", target_allowed, read_target,
+                  "A figure of a test and what it is to be; at: what its test sets in this scene; over: what "
+                  "another one sets, by whose figure it is divided. Tolerance: relative, or in the figure's "
+                  "unit; Calibrate/Tolerance where it is left out.");
+  for (std::size_t k = 0; k < c.curves.size(); ++k)
+    section.file(
+        "Curve " + std::to_string(k + 1), c.curves[k],
+        "Of a target \"curve " + std::to_string(k + 1) +
+            "\": CSV with a header, strain_platen or strain_gauge and stress_pa or stress_mpa, a row a "
+            "point, from small strains to large, compression positive.");
+  for (std::size_t k = 0; k < c.entries.size(); ++k)
+    section.value("Parameter " + std::to_string(k + 1), c.entries[k], "", "Section/Key: low ... high",
+                  read_freed,
+                  "A number of the scene that the search may change, and its bounds; it begins with that of "
+                  "the scene.");
 }
 
 void declare_calibrate(Parameters &parameters, Scene &scene) {
@@ -77,7 +66,7 @@ void declare_calibrate(Parameters &parameters, Scene &scene) {
   auto &parallel = range_of<dem::ParallelBond::Parameters>;
   const Range multipliers = range_of<dem::BondLayout>("radius_multiplier");
   section.entry("Mode", c.mode, calibrate_modes,
-                "Estimates at once, a table of elastic moduli, or bonds for a wanted material.");
+                "Estimates at once, a table of elastic moduli, or parameters that meet targets.");
   section.entry("Young modulus", c.young_modulus, "Pa", above(0),
                 "Wanted of the specimen's middle; may be left out.");
   section.number("Poisson ratio", c.poisson_ratio, between_open(-1, 0.5),
@@ -96,8 +85,8 @@ void declare_calibrate(Parameters &parameters, Scene &scene) {
                   "Packings after those, on which what was found is judged.");
   section.number("Strain", c.strain, above_up_to(0, 0.01), "Closure over height in the static solves.");
   section.entry("Tension rate", c.tension_rate, "m/s", above(0),
-                "Speed of opening in tension tests; where not given, Loading/Axial rate times the wanted "
-                "tensile over compressive strength (a tenth where one is not wanted).");
+                "Speed of opening in tension tests; where not given, Loading/Axial rate times the target of "
+                "tensile over that of compressive strength (a tenth where one is missing).");
   std::string words;
   for (const auto &one : free_knobs)
     words += (words.empty() ? "" : ", ") + one.first;
@@ -138,10 +127,10 @@ void declare_calibrate(Parameters &parameters, Scene &scene) {
   section.entry(
       "Smallest friction angle", c.friction_low, "rad", parallel("friction_angle"),
       "Search for strengths (parallel bond, cohesive beam); where not given, the bond's own, or 0 if "
-      "a triaxial strength is wanted.");
+      "a triaxial strength is a target.");
   section.entry("Largest friction angle", c.friction_high, "rad", parallel("friction_angle"),
                 "Search for strengths (parallel bond, cohesive beam); where not given, the bond's own, or 60 "
-                "degree if a triaxial strength is wanted.");
+                "degree if a triaxial strength is a target.");
   section.number("Smallest factor of compression limits", c.limits_low, above_up_to(0, 100),
                  "Search, where Calibrate/Free has compression limits: against those of the scene.");
   section.number("Largest factor of compression limits", c.limits_high, above_up_to(0, 100),
@@ -150,15 +139,86 @@ void declare_calibrate(Parameters &parameters, Scene &scene) {
                  "Search, where Calibrate/Free has contact friction.");
   section.number("Largest contact friction", c.contact_friction_high, between(0, 5),
                  "Search, where Calibrate/Free has contact friction.");
-  parameters.declare_series(section_of_target(1), most_targets,
-                            [&sections = c.target_sections](Parameters &to, std::size_t number) {
-                              declare_target(to, sections[number - 1], number);
-                            });
+  declare_lines(section, c);
+}
+
+// Of the wanted tensile over compressive strength where both are wanted of the scene.
+double tension_rate(const Scene &scene, const std::vector<Target> &targets) {
+  const Calibrate &c = calibrate_of(scene);
+  if (given(c.tension_rate)) return c.tension_rate;
+  double compressive = not_given, tensile = not_given;
+  for (const Target &target : targets) {
+    if (target.kind == TargetKind::strength && std::isnan(compressive)) compressive = target.value;
+    if (target.key() == "tensile_strength_pa" && std::isnan(tensile)) tensile = target.value;
+  }
+  const double ratio = tensile / compressive;
+  return scene.loading.rate * (std::isnan(ratio) ? 0.1 : ratio);
+}
+
+// The keys of Calibrate as targets, then the lines in their order.
+std::vector<Target> targets_of(Parameters &parameters, const Scene &scene) {
+  const Calibrate &c = calibrate_of(scene);
+  std::vector<Target> all;
+  const auto add = [&](Target target, const std::string &key) {
+    target.entry = "Calibrate/" + key;
+    if (std::isnan(target.tolerance)) target.tolerance = c.tolerance;
+    all.push_back(std::move(target));
+  };
+  if (given(c.young_modulus))
+    add(elastic_target(TargetKind::young_modulus, c.young_modulus), "Young modulus");
+  if (given(c.poisson_ratio))
+    add(elastic_target(TargetKind::poisson_ratio, c.poisson_ratio), "Poisson ratio");
+  if (given(c.compressive_strength)) add(strength_target(c.compressive_strength), "Compressive strength");
+  if (given(c.tensile_strength)) add(tension_target(c.tensile_strength), "Tensile strength");
+  if (given(c.triaxial_strength))
+    add(strength_target(c.triaxial_strength, c.confining_pressure), "Triaxial strength");
+  for (std::size_t k = 0; k < c.lines.size(); ++k) {
+    if (c.lines[k].text.empty()) continue;
+    Target target = c.lines[k];
+    target.number = static_cast<int>(k + 1);
+    if (target.curve > 0)
+      target.file = resolved_path(parameters.at("Calibrate/Curve " + std::to_string(target.curve)));
+    add(target, "Target " + std::to_string(k + 1));
+  }
+  for (Target &target : all)
+    complete_test(target, scene, tension_rate(scene, all));
+  return all;
+}
+
+// Its bounds and what it begins with, in the unit of the entry.
+FreedEntry completed(const Parameters &parameters, FreedEntry freed, const std::string &key) {
+  const Entry *entry = parameters.find(freed.path);
+  if (entry == nullptr || entry->is_text || entry->is_file || !entry->words.empty())
+    parameters.refuse(key, "frees " + freed.path + ", which is no number of this scene.");
+  for (const auto &[word, knob] : free_knobs)
+    if (facts_of(Calibrate(), knob).entry == freed.path)
+      parameters.refuse(key, "is what Calibrate/Free = " + word + " names.");
+  freed.unit = entry->unit.empty() ? "1" : entry->unit;
+  const auto read = [&](const std::string &text, const std::string &what) {
+    try {
+      return read_quantity(text, freed.unit, Range());
+    } catch (const ValueError &error) {
+      parameters.refuse(key, "has " + what + ", \"" + text + "\", that " + error.what() + ".");
+    }
+  };
+  freed.low = read(freed.from, "a bound"), freed.high = read(freed.to, "a bound");
+  freed.own = read(entry->text, "an entry to begin with");
+  if (!(freed.low < freed.high)) parameters.refuse(key, "has a low bound that is not below the high one.");
+  if (!(freed.own >= freed.low && freed.own <= freed.high))
+    parameters.refuse(key,
+                      "does not hold what the scene begins with, " + freed.path + " = " + entry->text + ".");
+  return freed;
 }
 
 void complete(Parameters &parameters, Scene &scene) {
   Calibrate &c = scene.own<Calibrate>();
-  c.targets = targets_of(parameters, c);
+  c.targets = targets_of(parameters, scene);
+  for (std::size_t k = 0; k < c.entries.size(); ++k)
+    if (!c.entries[k].path.empty())
+      parameters.attempt([&] {
+        c.freed.push_back(
+            completed(parameters, c.entries[k], "Calibrate/Parameter " + std::to_string(k + 1)));
+      });
   double &modulus = scene.model.bond_layout.modulus;
   if (c.mode == CalibrateMode::abacus && std::isnan(modulus) && !c.moduli.empty()) modulus = c.moduli.front();
 }
@@ -172,11 +232,8 @@ bool gives(const Scene &scene, const Parameters & /*parameters*/, const std::str
   return false;
 }
 
-bool uses(const Scene &scene, const std::string &part) {
-  const std::vector<Target> &targets = calibrate_of(scene).targets;
-  return std::any_of(targets.begin(), targets.end(), [&](const Target &target) {
-    return part == "Sleeve" ? target.sleeve : target.kind == TargetKind::splitting;
-  });
+bool uses(const Scene &scene, const std::string &) {
+  return calibrate_of(scene).searches_strengths();
 }
 
 } // namespace
@@ -184,7 +241,7 @@ bool uses(const Scene &scene, const std::string &part) {
 Program calibrate_program() {
   Program p;
   p.name = "platen-calibrate";
-  p.purpose = "Finds bonds that give a wanted E, nu, compressive and tensile strength.";
+  p.purpose = "Calibrates bonds and other parameters on figures of any tests.";
   p.section = "Calibrate";
   p.declare = declare_calibrate;
   p.complete = complete;

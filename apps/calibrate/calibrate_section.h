@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/calibrate/target.h"
 #include "apps/scene/program.h"
 #include "apps/scene/scene.h"
-#include "apps/scene/surfaces.h"
 #include "base/describe.h"
 
 namespace platen::apps {
@@ -42,69 +42,15 @@ inline const Words<Knob> free_knobs{{"modulus", Knob::modulus},
                                     {"compression limits", Knob::compression_limits},
                                     {"contact friction", Knob::contact_friction}};
 
-enum class TargetKind {
-  none,
-  young_modulus,
-  poisson_ratio,
-  strength,
-  strain_at_peak,
-  tension,
-  splitting,
-  strength_at_pressure,
-  gain_by_friction,
-  cube_over_prism,
-  slenderness,  // strength of a short specimen over that of one of 2
-  secant_ratio, // Poisson's ratio to 40 % of the strength
-  curve
+// Any other number of the scene that a search may change: "Contact/Rolling friction: 0.01 ... 0.5". Beyond
+// knob_count these follow in their order.
+struct FreedEntry {
+  std::string path;                                          // "" of none
+  std::string from, to;                                      // as they stand in the scene
+  double low = not_given, high = not_given, own = not_given; // SI, in the entry's unit
+  std::string unit;                                          // SI
 };
-inline const Words<TargetKind> target_kinds{{"none", TargetKind::none},
-                                            {"young modulus", TargetKind::young_modulus},
-                                            {"poisson ratio", TargetKind::poisson_ratio},
-                                            {"strength", TargetKind::strength},
-                                            {"strain at peak", TargetKind::strain_at_peak},
-                                            {"tension", TargetKind::tension},
-                                            {"splitting", TargetKind::splitting},
-                                            {"strength at pressure", TargetKind::strength_at_pressure},
-                                            {"gain by friction", TargetKind::gain_by_friction},
-                                            {"cube over prism", TargetKind::cube_over_prism},
-                                            {"slenderness", TargetKind::slenderness},
-                                            {"secant ratio", TargetKind::secant_ratio},
-                                            {"curve", TargetKind::curve}};
-
-enum class TargetForm { scene, cylinder, box };
-
-constexpr std::size_t most_targets = 20;
-
-// One of "Calibrate/Target 1" ... as it is read.
-struct TargetSection {
-  TargetKind kind = TargetKind::none;
-  std::string value, file;
-  double weight = 1, tolerance = not_given; // 1, relative; not given: Calibrate/Tolerance
-  double pressure = not_given;              // Pa
-  ConfinementKind cell = ConfinementKind::particles;
-  TargetForm form = TargetForm::scene;
-  double slenderness = not_given;                   // height over width
-  std::vector<StudySurface> platens, other_platens; // one or none
-  double rate = not_given, strain = not_given;      // m/s, 1
-};
-
-// What is wanted, in SI: of a section "Target", or of a key of Calibrate.
-struct Target {
-  TargetKind kind = TargetKind::strength;
-  double value = not_given;                      // of a curve: not given
-  double weight = 1, tolerance = 0.02;           // relative; of a curve: root mean square over its peak
-  double pressure = not_given;                   // Pa
-  bool sleeve = false, box = false;              // the pressure's, and the specimen instead of the scene's
-  double slenderness = not_given;                // the scene's where not given
-  double friction = not_given;                   // of the platens; not given: as the scene has them
-  double other_friction = 0;                     // that a gain by friction is over
-  double rate = not_given, strain = not_given;   // m/s, 1: speed and largest strain of its tests
-  std::string file;                              // of a curve; resolved
-  std::string entry = "Calibrate/Target 1/Kind"; // where its faults are told
-
-  // Static solves tell it; all others need platens that move.
-  bool is_elastic() const { return kind == TargetKind::young_modulus || kind == TargetKind::poisson_ratio; }
-};
+constexpr std::size_t most_freed = 8;
 
 struct Calibrate { // platen-calibrate
   CalibrateMode mode = CalibrateMode::search;
@@ -112,8 +58,11 @@ struct Calibrate { // platen-calibrate
   double young_modulus = not_given, poisson_ratio = not_given;           // Pa, 1
   double compressive_strength = not_given, tensile_strength = not_given; // Pa
   double triaxial_strength = not_given, confining_pressure = not_given;  // Pa, largest axial stress at it
-  std::array<TargetSection, most_targets> target_sections;
-  std::vector<Target> targets;           // all of the above
+  std::array<Target, most_targets> lines;                                // "Target 1" ...
+  std::array<std::string, most_curves> curves;                           // files
+  std::vector<Target> targets;                                           // all of the above
+  std::array<FreedEntry, most_freed> entries; // "Parameter 1" ...; those that are set, once it is read
+  std::vector<FreedEntry> freed;
   std::vector<Knob> free;                // empty: what the targets need
   bool differences = false;              // sensitivities measured one by one before the search
   int seeds = 3, verification_seeds = 5; // packings to calibrate on, and others to judge by
@@ -135,6 +84,12 @@ struct Calibrate { // platen-calibrate
   bool searches_strengths() const {
     return mode == CalibrateMode::search &&
            std::any_of(targets.begin(), targets.end(), [](const Target &t) { return !t.is_elastic(); });
+  }
+  // Whether sensitivities are measured before the search: where nothing is known of them they have to be.
+  bool measures_differences() const {
+    return differences || !freed.empty() || std::any_of(targets.begin(), targets.end(), [](const Target &t) {
+             return t.kind == TargetKind::other;
+           });
   }
 };
 

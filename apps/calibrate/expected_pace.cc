@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include "apps/calibrate/calibrate_section.h"
+#include "apps/calibrate/trials.h"
+#include "apps/programs.h"
 
 namespace platen::apps {
 namespace {
@@ -38,7 +39,7 @@ double strain_at_peak(const Goal &goal, double young) {
 
 } // namespace
 
-std::vector<ExpectedPace> expected_paces(const Scene &scene, const Goals &goals) {
+std::vector<ExpectedPace> expected_paces(const Scene &scene, const CommandLine &command, const Goals &goals) {
   const double young = wanted(goals, TargetKind::young_modulus),
                share = scene.model.density_of == dem::DensityOf::grains ? usual_packing_fraction : 1,
                wave = std::sqrt(voigt_over_young * young /
@@ -46,20 +47,21 @@ std::vector<ExpectedPace> expected_paces(const Scene &scene, const Goals &goals)
   std::vector<ExpectedPace> paces;
   for (std::size_t t = 0; t < goals.tests().size(); ++t) {
     const SpecimenTest &test = goals.tests()[t];
-    if ((test.kind != TestKind::compression && test.kind != TestKind::tension) || test.pressure > 0) continue;
+    if (test.program != "compress") continue;
+    const Scene led_to =
+        read_scene(command.scene, entries_of(scene, command, test, choice_of(scene), scene.general.seed),
+                   program("compress"));
+    if (led_to.loading.confined()) continue;
     double strain = not_given;
     for (const std::size_t k : goals.wanted())
       if (goals.all()[k].test == t) strain = std::fmin(strain, strain_at_peak(goals.all()[k], young));
-    const Scene led_to = scene_of_test(scene, test);
     // Strain times height over the rate is the time to the peak, height over the wave's speed that of a wave.
     const double height = led_to.specimen.height, rate = led_to.loading.rate,
                  transits = strain * height / rate / (height / wave);
     if (std::isnan(transits)) continue;
-    const bool own_rate = test.kind == TestKind::tension && given(calibrate_of(scene).tension_rate);
-    paces.push_back({test.name(), rate, transits,
-                     given(test.rate) ? "Rate of its target"
-                     : own_rate       ? "Calibrate/Tension rate"
-                                      : "Loading/Axial rate"});
+    const bool tension = led_to.loading.test == LoadingTest::tension,
+               own_rate = tension && given(calibrate_of(scene).tension_rate);
+    paces.push_back({test.name, rate, transits, own_rate ? "Calibrate/Tension rate" : "Loading/Axial rate"});
   }
   return paces;
 }

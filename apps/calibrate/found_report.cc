@@ -47,10 +47,10 @@ std::string matrix_text(const std::vector<std::string> &rows, const std::vector<
   return text;
 }
 
-std::vector<std::string> words_of(const std::vector<Knob> &knobs) {
+std::vector<std::string> words_of(const Calibrate &asked, const std::vector<Knob> &knobs) {
   std::vector<std::string> words;
   for (const Knob knob : knobs)
-    words.emplace_back(facts_of(knob).words);
+    words.push_back(facts_of(asked, knob).words);
   return words;
 }
 
@@ -83,9 +83,8 @@ Json json_of(const Goals &goals, std::size_t k, const Judged &judged) {
   const Goal &goal = goals.all()[k];
   Json one;
   one["key"] = goal.key;
-  one["kind"] = word_of(target_kinds, goal.target.kind);
+  one["target"] = goal.target.text;
   one["wanted"] = goal.curve ? 0 : goal.target.value;
-  one["weight"] = goal.target.weight;
   one["tolerance"] = goal.target.tolerance;
   one["training"] = json_of(judged.training.numbers[k]);
   one["training_miss"] = goals.miss(k, judged.training);
@@ -98,12 +97,12 @@ Json json_of(const Goals &goals, std::size_t k, const Judged &judged) {
 }
 
 // A row a knob: {"parameter": "stiffness ratio", COLUMN: number, ...}.
-Json json_of(const std::vector<Knob> &knobs, const std::vector<std::string> &columns,
+Json json_of(const Calibrate &asked, const std::vector<Knob> &knobs, const std::vector<std::string> &columns,
              const Eigen::MatrixXd &numbers) {
   Json rows = Json::array();
   for (std::size_t r = 0; r < knobs.size(); ++r) {
     Json row;
-    row["parameter"] = facts_of(knobs[r]).column;
+    row["parameter"] = facts_of(asked, knobs[r]).column;
     for (std::size_t k = 0; k < columns.size(); ++k)
       row[columns[k]] = numbers(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k));
     rows.push_back(row);
@@ -117,17 +116,19 @@ std::string wishes(const Goals &goals) {
   std::string text;
   for (const std::size_t k : goals.wanted()) {
     const Goal &goal = goals.all()[k];
-    const std::string value =
-        goal.curve ? goal.target.file : fmt::format("{:.5g}", goal.target.value / goal.unit);
-    text +=
-        fmt::format("  wanted: {} {} (tolerance {:.3g} %)\n", goal.words, value, 100 * goal.target.tolerance);
+    if (goal.target.number > 0)
+      text += fmt::format("  target {}: {} (tolerance {:.3g} %)\n", goal.target.number, goal.target.text,
+                          100 * goal.target.tolerance);
+    else
+      text += fmt::format("  target: {} {:.5g} (tolerance {:.3g} %)\n", goal.words,
+                          goal.target.value / goal.unit, 100 * goal.target.tolerance);
   }
   return text;
 }
 
 std::string table_of(const Goals &goals, const Judged &judged) {
-  std::string text = fmt::format("  {:<30} {:>8} {:>26} {:>26} {:>10}\n", "", "wanted", "calibrated on",
-                                 "unseen seeds", "off");
+  std::string text = fmt::format("  {:<30} {:>8} {:>26} {:>26} {:>10}\n", "", "target", "calibrated on",
+                                 "unseen packings", "off");
   for (std::size_t k = 0; k < goals.all().size(); ++k)
     text += row_of(goals, k, judged);
   return text;
@@ -152,7 +153,7 @@ std::vector<std::string> gaps(const Goals &goals, const Judged &judged) {
       constexpr double worth_a_factor = 1.5;
       const bool far = factor > worth_a_factor || (factor > 0 && factor < 1 / worth_a_factor);
       lines.push_back(fmt::format(
-          "{}: wanted {:.4g}, got {:.4g}, off by {:+.3g} %{}, {}", goal.words, wanted / goal.unit,
+          "{}: target {:.4g}, calibrated {:.4g}, off by {:+.3g} %{}, {}", goal.words, wanted / goal.unit,
           got / goal.unit, 100 * miss,
           far ? fmt::format(" (a factor of {:.3g})", std::max(factor, 1 / factor)) : "", tolerance));
     }
@@ -166,7 +167,7 @@ std::string findings(const Goals &goals, const Scene &scene, const Judged &judge
   std::vector<std::string> targets;
   for (const std::size_t k : at.goals)
     targets.push_back(goals.all()[k].words);
-  const std::vector<std::string> knobs = words_of(at.knobs);
+  const std::vector<std::string> knobs = words_of(goals.asked(), at.knobs);
   std::string text = fmt::format(
       "  d ln target / d ln parameter, {}:\n",
       at.measured ? "by differences and trials" : "that of one concrete, corrected by the trials");
@@ -182,7 +183,7 @@ std::string findings(const Goals &goals, const Scene &scene, const Judged &judge
 void tell_found(const Goals &goals, const Scene &scene, const Judged &judged, Json &s) {
   const Sensitivities &at = judged.found.sensitivities;
   const Analysis a = analyse(goals, calibrate_of(scene).tolerance, at);
-  for (const KnobFacts &knob : knob_facts())
+  for (const KnobFacts &knob : knob_facts(goals.asked()))
     if (knob.knob != Knob::poisson_ratio) s["found"][knob.column] = judged.found.choice[knob.knob];
   s["training"] = json_of(goals, judged.training);
   s["verification"] = json_of(goals, judged.unseen);
@@ -204,10 +205,10 @@ void tell_found(const Goals &goals, const Scene &scene, const Judged &judged, Js
   for (const std::size_t k : at.goals)
     columns.push_back(goals.all()[k].key);
   for (const Knob knob : at.knobs)
-    knobs.emplace_back(facts_of(knob).column);
+    knobs.push_back(facts_of(goals.asked(), knob).column);
   s["sensitivities_measured"] = at.measured;
-  s["sensitivities"] = json_of(at.knobs, columns, a.sensitivities);
-  s["correlations"] = json_of(at.knobs, knobs, a.correlations);
+  s["sensitivities"] = json_of(goals.asked(), at.knobs, columns, a.sensitivities);
+  s["correlations"] = json_of(goals.asked(), at.knobs, knobs, a.correlations);
   s["correlated"] = a.correlated;
   s["undetermined"] = a.undetermined;
   s["targets_missed"] = gaps(goals, judged);

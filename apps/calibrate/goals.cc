@@ -9,53 +9,10 @@ namespace {
 
 // What a specimen that comes to no peak is taken for, over what is wanted.
 constexpr double without_peak = 2;
-constexpr double prism_slenderness = 2.4; // Hughes and Bahramian 1967
-constexpr double short_slenderness = 1, slender = 2;
 
 // Pressure, or friction of the platens, may hold a specimen so that it flows on.
 bool may_flow(TargetKind kind) {
-  return kind == TargetKind::strength_at_pressure || kind == TargetKind::gain_by_friction ||
-         kind == TargetKind::cube_over_prism || kind == TargetKind::slenderness;
-}
-
-SpecimenTest test_of(const Scene &scene, const Target &target) {
-  SpecimenTest test;
-  switch (target.kind) {
-    case TargetKind::young_modulus:
-    case TargetKind::poisson_ratio:
-      return test;
-    case TargetKind::tension:
-      test.kind = TestKind::tension;
-      break;
-    case TargetKind::splitting:
-      test.kind = TestKind::splitting;
-      test.friction = target.friction;
-      break;
-    default:
-      test.kind = TestKind::compression;
-      test.friction = target.friction;
-      test.box = target.box && scene.specimen.shape != SpecimenShape::box;
-      test.slenderness = target.slenderness;
-  }
-  test.rate = target.rate, test.strain = target.strain;
-  if (target.kind == TargetKind::strength_at_pressure) {
-    test.pressure = target.pressure;
-    test.sleeve = target.sleeve;
-  }
-  if (target.kind == TargetKind::cube_over_prism) {
-    test.box = scene.specimen.shape != SpecimenShape::box;
-    test.slenderness = 1;
-  }
-  if (target.kind == TargetKind::slenderness && std::isnan(target.slenderness))
-    test.slenderness = short_slenderness;
-  return test;
-}
-
-// Of the specimen that a short one is compared with; as the scene has it where that is what it has.
-double slender_of(const Scene &scene, const SpecimenTest &test) {
-  const SpecimenSection &own = scene.specimen;
-  const bool same = std::abs(own.height - slender * own.width()) < 1e-9 * own.height;
-  return same && !test.box ? not_given : slender;
+  return kind == TargetKind::strength_at_pressure || kind == TargetKind::ratio || kind == TargetKind::other;
 }
 
 int order_of(const Goal &goal) { // the longest first
@@ -65,37 +22,21 @@ int order_of(const Goal &goal) { // the longest first
 
 } // namespace
 
-Goals::Goals(const Scene &scene) : tolerance_(calibrate_of(scene).tolerance) {
-  for (const Target &target : calibrate_of(scene).targets)
+Goals::Goals(const Scene &scene) : asked_(calibrate_of(scene)) {
+  for (const Target &target : asked_.targets)
     add(target);
   for (const TargetKind kind : {TargetKind::young_modulus, TargetKind::poisson_ratio})
-    if (std::none_of(goals_.begin(), goals_.end(), [&](const Goal &g) { return g.target.kind == kind; })) {
-      Target watched;
-      watched.kind = kind;
-      add(watched);
-    }
+    if (std::none_of(goals_.begin(), goals_.end(), [&](const Goal &g) { return g.target.kind == kind; }))
+      add(elastic_target(kind, not_given)); // watched
   std::vector<Goal *> order;
   for (Goal &goal : goals_)
     order.push_back(&goal);
   std::stable_sort(order.begin(), order.end(),
                    [](const Goal *a, const Goal *b) { return order_of(*a) < order_of(*b); });
   for (Goal *goal : order) {
-    SpecimenTest test = test_of(scene, goal->target);
-    if (goal->curve)
-      test.curve_strain = goal->curve->last_strain(), test.curve_of_gauge = goal->curve->of_gauge;
-    goal->test = goal->other = place_of(test);
-    if (goal->target.kind == TargetKind::gain_by_friction) {
-      test.friction = goal->target.other_friction;
-      goal->other = place_of(test);
-    }
-    if (goal->target.kind == TargetKind::slenderness) {
-      test.slenderness = slender_of(scene, test);
-      goal->other = place_of(test);
-    }
-    if (goal->target.kind == TargetKind::cube_over_prism) {
-      test.slenderness = given(goal->target.slenderness) ? goal->target.slenderness : prism_slenderness;
-      goal->other = place_of(test);
-    }
+    const bool ratio = goal->target.kind == TargetKind::ratio;
+    goal->test = goal->other = place_of(*goal, goal->target.entries, goal->key);
+    if (ratio) goal->other = place_of(*goal, goal->target.over, goal->key + "_over");
   }
 }
 
@@ -103,28 +44,39 @@ void Goals::add(const Target &target) {
   Goal goal;
   goal.target = target;
   if (target.kind == TargetKind::curve) goal.curve = read_target_curve(target.file);
-  goal.words = words_of(target);
-  goal.unit = unit_on_screen(target.kind);
-  goal.key = key_of(target.kind);
+  goal.words = target.words();
+  goal.unit = target.unit();
+  goal.key = target.key();
   const auto taken = [&] {
     return std::any_of(goals_.begin(), goals_.end(), [&](const Goal &g) { return g.key == goal.key; });
   };
   for (int count = 2; taken(); ++count)
-    goal.key = key_of(target.kind) + "_" + std::to_string(count);
+    goal.key = target.key() + "_" + std::to_string(count);
   goals_.push_back(std::move(goal));
 }
 
-// A run that keeps a curve serves those that do not, but no two curves.
-std::size_t Goals::place_of(const SpecimenTest &test) {
-  for (std::size_t k = 0; k < tests_.size(); ++k) {
-    SpecimenTest &there = tests_[k];
-    const bool clash = there.curve_strain > 0 && test.curve_strain > 0 && there.name() != test.name();
-    if (!same_test(there, test) || clash) continue;
-    if (test.curve_strain > 0) there = test;
-    return k;
+// One run serves all that its entries are the same for; one that keeps a curve also those that keep none.
+std::size_t Goals::place_of(const Goal &goal, const std::vector<std::string> &entries,
+                            const std::string &name) {
+  const double strain = goal.curve ? goal.curve->last_strain() : 0;
+  const bool of_gauge = goal.curve && goal.curve->of_gauge;
+  const auto serves = [&](const SpecimenTest &there) {
+    return there.program == goal.target.program && there.entries == entries &&
+           (strain == 0 || there.curve_strain == 0 ||
+            (there.curve_strain == strain && there.curve_of_gauge == of_gauge));
+  };
+  auto test = std::find_if(tests_.begin(), tests_.end(), serves);
+  if (test == tests_.end()) {
+    test = tests_.insert(test, SpecimenTest());
+    test->program = goal.target.program, test->entries = entries;
+    if (test->loads()) test->name = name;
   }
-  tests_.push_back(test);
-  return tests_.size() - 1;
+  if (strain > 0) test->curve_strain = strain, test->curve_of_gauge = of_gauge;
+  std::vector<std::string> &figures = test->figures;
+  const std::string &figure = goal.target.figure;
+  if (!figure.empty() && std::find(figures.begin(), figures.end(), figure) == figures.end())
+    figures.push_back(figure);
+  return static_cast<std::size_t>(test - tests_.begin());
 }
 
 std::vector<std::size_t> Goals::wanted() const {
@@ -144,24 +96,10 @@ std::vector<std::size_t> Goals::wanted_elastic() const {
 
 // NaN where a run of it came to no end.
 double Goals::number(const Goal &goal, const TrialResult &r, const TrialResult &other) {
-  switch (goal.target.kind) {
-    case TargetKind::young_modulus:
-      return r.young_modulus;
-    case TargetKind::poisson_ratio:
-      return r.poisson_ratio;
-    case TargetKind::strain_at_peak:
-      return r.strain_at_peak;
-    case TargetKind::secant_ratio: // add_moduli took it off the curve
-      return r.poisson_ratio;
-    case TargetKind::gain_by_friction:
-    case TargetKind::cube_over_prism:
-    case TargetKind::slenderness:
-      return r.strength / other.strength;
-    case TargetKind::curve:
-      return r.curve.empty() ? not_given : root_mean_square(misses_of_curve(*goal.curve, r.curve));
-    default:
-      return r.strength;
-  }
+  if (goal.curve)
+    return r.curve.empty() ? not_given : root_mean_square(misses_of_curve(*goal.curve, r.curve));
+  const double own = r.number(goal.target.figure);
+  return goal.target.kind == TargetKind::ratio ? own / other.number(goal.target.figure) : own;
 }
 
 Measured corrected(Measured m, const Correction &by) {
@@ -181,7 +119,7 @@ Measured Goals::measured(const std::vector<TrialResult> &results, bool elastic_a
     const auto of = [&](std::size_t test) -> const TrialResult & {
       return results[elastic_alone ? first : first + test];
     };
-    m.platen_modulus.add(of(elastic_test()).platen_modulus);
+    m.platen_modulus.add(of(elastic_test()).number("youngs_modulus_platen_pa"));
     for (std::size_t k = 0; k < goals_.size(); ++k) {
       const Goal &goal = goals_[k];
       if (elastic_alone && !goal.elastic()) continue;
@@ -250,7 +188,7 @@ Correction Goals::correction(const std::vector<Measured> &training,
 double Goals::scale(std::size_t k) const {
   const Goal &goal = goals_[k];
   const double points = goal.curve ? curve_points : 1;
-  return std::sqrt(goal.target.weight / points) * tolerance_ / goal.target.tolerance;
+  return std::sqrt(1 / points) * asked_.tolerance / goal.target.tolerance;
 }
 
 Eigen::VectorXd Goals::responses(const std::vector<std::size_t> &goals, const Measured &m) const {

@@ -25,14 +25,8 @@ struct Goal {
   bool is_poisson() const { // which may be negative
     return target.kind == TargetKind::poisson_ratio || target.kind == TargetKind::secant_ratio;
   }
-  bool elastic() const {
-    return target.kind == TargetKind::young_modulus || target.kind == TargetKind::poisson_ratio;
-  }
+  bool elastic() const { return target.is_elastic(); }
 };
-
-std::string key_of(TargetKind kind); // of summary.json
-std::string words_of(const Target &target);
-double unit_on_screen(TargetKind kind);
 
 // Over the packings, by goal. Of a curve: root mean squares of its misses, and the mean stresses (Pa).
 struct Measured {
@@ -57,6 +51,7 @@ public:
   // watched. Throws InputError for a curve that is none.
   explicit Goals(const Scene &scene);
 
+  const Calibrate &asked() const { return asked_; }
   const std::vector<Goal> &all() const { return goals_; }
   const std::vector<SpecimenTest> &tests() const { return tests_; } // the longest first, elastic last
   std::size_t elastic_test() const { return tests_.size() - 1; }
@@ -77,7 +72,7 @@ public:
   Correction correction(const std::vector<Measured> &training, const std::vector<Measured> &further) const;
   // What a search makes small, `rows(goal)` after each other of each goal: logarithms of measured over wanted
   // numbers (of Poisson's ratio, which may be negative, the relative difference), differences of a curve's
-  // points; in multiples of the goal's tolerance over Calibrate/Tolerance, times the root of its weight. A
+  // points; in multiples of the goal's tolerance over Calibrate/Tolerance. A
   // specimen that comes to no peak counts as twice too strong where pressure or friction hold it; empty where
   // another one comes to none.
   Eigen::VectorXd responses(const std::vector<std::size_t> &goals, const Measured &measured) const;
@@ -86,10 +81,10 @@ public:
 
 private:
   void add(const Target &target);
-  std::size_t place_of(const SpecimenTest &test);
+  std::size_t place_of(const Goal &goal, const std::vector<std::string> &entries, const std::string &name);
   static double number(const Goal &goal, const TrialResult &own, const TrialResult &other);
 
-  double tolerance_; // Calibrate/Tolerance
+  const Calibrate &asked_;
   std::vector<Goal> goals_;
   std::vector<SpecimenTest> tests_;
 };

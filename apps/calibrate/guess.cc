@@ -22,14 +22,6 @@ constexpr double modulus_by_radius = 2;
 // bonds have broken by 40 % of it. That ratio goes with shear over tensile strength of the bond as above.
 constexpr double secant_by_ratio = 0.25;
 
-bool is_tension(TargetKind kind) {
-  return kind == TargetKind::tension || kind == TargetKind::splitting;
-}
-bool is_ratio(TargetKind kind) {
-  return kind == TargetKind::gain_by_friction || kind == TargetKind::cube_over_prism ||
-         kind == TargetKind::slenderness;
-}
-
 // Voigt: E ~ (2 + 3 r)/(4 + r), nu = (1 - r)/(4 + r).
 double elastic_slope(const Target &target, Knob knob, const Choice &at) {
   const bool young = target.kind == TargetKind::young_modulus;
@@ -51,17 +43,17 @@ double secant_slope(const Target &target, Knob knob, const Choice &at) {
 }
 
 double strength_slope(const Target &target, Knob knob, double share) {
-  const bool confined = target.kind == TargetKind::strength_at_pressure || is_ratio(target.kind);
-  const bool tension = is_tension(target.kind);
+  const bool ratio = target.kind == TargetKind::ratio, tension = target.kind == TargetKind::tension,
+             confined = target.kind == TargetKind::strength_at_pressure || ratio;
   switch (knob) {
     case Knob::modulus:
       return target.kind == TargetKind::strain_at_peak ? -1 : 0;
     case Knob::tensile_strength:
-      return is_ratio(target.kind) ? 0 : share;
+      return ratio ? 0 : share;
     case Knob::shear_strength:
       return tension ? 0 : (confined ? confined_by_ratio : compressive_by_ratio);
     case Knob::moment_contribution:
-      return tension || is_ratio(target.kind) ? 0 : compressive_by_moments;
+      return tension || ratio ? 0 : compressive_by_moments;
     case Knob::friction_angle:
       return tension ? 0 : (confined ? confined_by_friction : compressive_by_friction);
     case Knob::compression_limits:
@@ -109,6 +101,8 @@ Eigen::MatrixXd Space::guess(const Goals &goals, const std::vector<std::size_t> 
       const double scale = goals.scale(k);
       if (goal.elastic())
         put(scale * elastic_slope(goal.target, knob, start_));
+      else if (goal.target.kind == TargetKind::other)
+        put(0);
       else if (goal.target.kind == TargetKind::secant_ratio)
         put(scale * secant_slope(goal.target, knob, start_));
       else if (!goal.curve)

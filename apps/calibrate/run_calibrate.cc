@@ -13,11 +13,13 @@
 #include "apps/output/file.h"
 #include "apps/output/machine.h"
 #include "apps/output/stop_signal.h"
+#include "apps/programs.h"
 #include "apps/run/app_output.h"
 #include "apps/run/needs.h"
 #include "apps/run/problem_setup.h"
 #include "apps/run/quasi_static.h"
 #include "apps/run/specimen_setup.h"
+#include "apps/scene/parameters.h"
 #include "apps/scene/shell.h"
 #include "apps/scene/units.h"
 #include "apps/scene/version.h"
@@ -25,10 +27,31 @@
 namespace platen::apps {
 namespace {
 
+// Each test is a scene of its own: what it cannot be is told before anything runs.
+void require_tests(const Scene &scene, const CommandLine &command, const Goals &goals) {
+  for (const Goal &goal : goals.all())
+    for (const std::size_t place : {goal.test, goal.other}) {
+      const SpecimenTest &test = goals.tests()[place];
+      if (!test.loads()) continue;
+      try {
+        const Scene led_to =
+            read_scene(command.scene, entries_of(scene, command, test, choice_of(scene), scene.general.seed),
+                       program(test.program));
+        for (const std::string &note : led_to.notes)
+          for (const std::string &entry : test.entries)
+            if (note.find(": note: " + entry.substr(0, entry.find(" =")) + " =") != std::string::npos)
+              throw InputError(note);
+      } catch (const InputError &error) {
+        scene.parameters->refuse(goal.target.entry,
+                                 std::string("leads to a test that cannot be run:\n") + error.what());
+      }
+    }
+}
+
 // How many wave crossings the tests of wanted strengths are to take, and what helps where they are too few.
-std::string pace_of_tests(const Scene &scene, const Goals &goals) {
+std::string pace_of_tests(const Scene &scene, const CommandLine &command, const Goals &goals) {
   std::string text;
-  for (const ExpectedPace &one : expected_paces(scene, goals)) {
+  for (const ExpectedPace &one : expected_paces(scene, command, goals)) {
     text += fmt::format("  {}: at {:.3g} m/s about {:.0f} wave crossings to the peak, {:g} at least\n",
                         one.test, one.rate, one.transits, fewest_transits);
     if (one.transits < fewest_transits)
@@ -40,17 +63,17 @@ std::string pace_of_tests(const Scene &scene, const Goals &goals) {
   return text;
 }
 
-std::string description(const Scene &scene, const Goals *goals) {
+std::string description(const Scene &scene, const CommandLine &command, const Goals *goals) {
   const Calibrate &c = calibrate_of(scene);
   return title_of(scene) +
          fmt::format("\n  {}: {} seeds to calibrate on, {} to judge by\n", word_of(calibrate_modes, c.mode),
                      c.seeds, goals != nullptr ? c.verification_seeds : 0) +
-         (goals != nullptr ? wishes(*goals) + pace_of_tests(scene, *goals) : "");
+         (goals != nullptr ? wishes(*goals) + pace_of_tests(scene, command, *goals) : "");
 }
 
 void tell_bounds(const Scene &scene, Trials &trials, RunLog &log, Json &s) {
   const dem::Specimen &first = trials.packing(scene.general.seed);
-  const dem::NetworkModuli b = bounds_of(scene, first, choice_of(scene));
+  const dem::NetworkModuli b = bounds_of(scene, first);
   log.info(
       "  of the bonds alone, as the scene has them: E at most {:.5g} GPa (Voigt, nu {:.4f}), about {:.5g} "
       "GPa "
@@ -75,7 +98,7 @@ std::vector<Measured> measure(const Goals &goals, const std::vector<unsigned lon
   const std::vector<TrialResult> results = trials(asked);
   for (std::size_t k = 0; k < asked.size(); ++k)
     if (!results[k].good())
-      log.warning("seed {}, {}: {}", asked[k].seed, asked[k].test.name(), results[k].status);
+      log.warning("seed {}, {}: {}", asked[k].seed, asked[k].test.name, results[k].status);
   std::vector<Measured> all;
   const auto stride = static_cast<std::ptrdiff_t>(choices.empty() ? 0 : results.size() / choices.size());
   for (auto from = results.begin(); from != results.end(); from += stride)
@@ -88,7 +111,8 @@ void tell_trial(const Goals &goals, const std::vector<Knob> &knobs, const Choice
                 bool elastic, int trial, RunLog &log) {
   std::string text = elastic ? "  static solve:" : fmt::format("  trial {}:", trial);
   for (const Knob knob : knobs)
-    if (!elastic || facts_of(knob).elastic) text += " " + text_of(knob, choice[knob]) + ",";
+    if (const KnobFacts facts = facts_of(goals.asked(), knob); !elastic || facts.elastic)
+      text += " " + text_of(facts, choice[knob]) + ",";
   text.back() = ':';
   for (const std::size_t k : elastic ? goals.wanted_elastic() : goals.wanted())
     text += fmt::format(" {} {};", goals.all()[k].words,
@@ -158,7 +182,8 @@ void write_found(const CommandLine &command, const Scene &scene, const Goals &go
 int run_calibrate(const CommandLine &command, const Scene &scene) {
   std::optional<Goals> goals; // a curve that is none is found before anything is written
   if (calibrate_of(scene).mode == CalibrateMode::search) goals.emplace(scene);
-  const std::string said = description(scene, goals ? &*goals : nullptr);
+  if (goals) require_tests(scene, command, *goals);
+  const std::string said = description(scene, command, goals ? &*goals : nullptr);
   if (command.dry_run) {
     fmt::print("{}", said);
     return status_done;
@@ -174,7 +199,7 @@ int run_calibrate(const CommandLine &command, const Scene &scene) {
   s["threads"] = output.threads();
   std::vector<std::string> unmet;
   try {
-    Trials trials(scene, output.paths, command.resume, output.log);
+    Trials trials(command, scene, output.paths, output.threads(), output.log);
     tell_bounds(scene, trials, output.log, s);
     if (mode == CalibrateMode::abacus) s["abacus"] = make_abacus(scene, output.paths, trials, output.log);
     if (goals) {
@@ -183,9 +208,9 @@ int run_calibrate(const CommandLine &command, const Scene &scene) {
       unmet = gaps(*goals, judged);
       write_curves(*goals, judged, output.paths);
       write_found(command, scene, *goals, judged, output);
-      std::string found = "found:";
+      std::string found = "calibrated:";
       for (const Knob knob : knobs_of(scene))
-        found += " " + text_of(knob, judged.found.choice[knob]) + ",";
+        found += " " + text_of(facts_of(goals->asked(), knob), judged.found.choice[knob]) + ",";
       found.back() = '\n';
       output.log.info("{}{}{}", found, table_of(*goals, judged), findings(*goals, scene, judged));
     }

@@ -150,7 +150,7 @@ Found Pass::operator()() {
       x = space_.scaled(*x, Knob::tensile_strength, weaker);
       continue;
     }
-    const bool differences = calibrate_of(scene_).differences && !elastic_;
+    const bool differences = calibrate_of(scene_).measures_differences() && !elastic_;
     if (differences && differences_ == 0 && !done()) take_differences(*x, difference);
     settle();
     x = model_.next();
@@ -161,7 +161,7 @@ Found Pass::operator()() {
   if (tried_.empty() && !too_fast_.empty())
     throw NumericsError("no trial counts, " + too_fast_ +
                         ". A lower Loading/Axial rate helps; in tension Calibrate/Tension rate, of one "
-                        "target its Rate; trials.csv has every trial");
+                        "target one that its line sets; trials.csv has every trial");
   if (tried_.empty())
     throw NumericsError(
         elastic_ ? "no static solve came to an end; trials.csv says why"
@@ -187,7 +187,8 @@ bool proportional(const Scene &scene) {
   const bool strengths = std::none_of(c.targets.begin(), c.targets.end(), [](const Target &target) {
     return target.kind == TargetKind::strain_at_peak || target.kind == TargetKind::curve;
   });
-  return strengths && c.free.empty() && scene.bond.list("compression_limits").empty();
+  return strengths && c.free.empty() && !c.measures_differences() &&
+         scene.bond.list("compression_limits").empty();
 }
 
 } // namespace
@@ -195,7 +196,7 @@ bool proportional(const Scene &scene) {
 Found search(const Scene &scene, const Goals &goals, const Measurement &test, const Judge &judge) {
   std::vector<Knob> knobs = knobs_of(scene), elastic;
   std::copy_if(knobs.begin(), knobs.end(), std::back_inserter(elastic),
-               [](Knob knob) { return facts_of(knob).elastic; });
+               [&](Knob knob) { return facts_of(calibrate_of(scene), knob).elastic; });
   const std::vector<std::size_t> wanted = goals.wanted(), by_solves = goals.wanted_elastic();
   Found found;
   found.choice = choice_of(scene);

@@ -2,17 +2,14 @@
 set(PLATEN_CALIBRATE_SOURCES
   calibrate/abacus.cc
   calibrate/analysis.cc
-  calibrate/choice.cc
   calibrate/expected_pace.cc
   calibrate/found_report.cc
-  calibrate/goal_words.cc
   calibrate/goals.cc
   calibrate/guess.cc
   calibrate/response_model.cc
   calibrate/run_calibrate.cc
   calibrate/search.cc
   calibrate/space.cc
-  calibrate/trial_specimen.cc
   calibrate/target_curve.cc
   calibrate/trial.cc
   calibrate/trials.cc)

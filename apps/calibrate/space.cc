@@ -23,13 +23,12 @@ struct Wants {
   explicit Wants(const Calibrate &c) {
     for (const Target &t : c.targets) {
       const TargetKind kind = t.kind;
-      const bool elastic = kind == TargetKind::young_modulus || kind == TargetKind::poisson_ratio;
       young = young || kind == TargetKind::young_modulus || kind == TargetKind::curve;
       poisson = poisson || kind == TargetKind::poisson_ratio;
       compressive = compressive || kind == TargetKind::strength || kind == TargetKind::curve;
-      tensile = tensile || kind == TargetKind::tension || kind == TargetKind::splitting;
+      tensile = tensile || kind == TargetKind::tension;
       pressure = pressure || kind == TargetKind::strength_at_pressure;
-      any = any || !elastic;
+      any = any || !t.is_elastic();
     }
   }
 };
@@ -58,11 +57,14 @@ std::vector<Knob> needed_knobs(const Scene &scene) {
 
 std::vector<Knob> knobs_of(const Scene &scene) {
   const Calibrate &c = calibrate_of(scene);
-  const std::vector<Knob> all = c.free.empty() ? needed_knobs(scene) : c.free;
+  std::vector<Knob> all = c.free.empty() && c.freed.empty() ? needed_knobs(scene) : c.free;
+  for (std::size_t k = 0; k < c.freed.size(); ++k)
+    all.push_back(static_cast<Knob>(knob_count + k));
   return Space(scene, choice_of(scene), all).knobs();
 }
 
-Space::Space(const Scene &scene, const Choice &start, const std::vector<Knob> &knobs) : start_(start) {
+Space::Space(const Scene &scene, const Choice &start, const std::vector<Knob> &knobs)
+    : asked_(calibrate_of(scene)), start_(start) {
   for (const Knob knob : knobs) {
     const Axis axis = axis_of(scene, knob);
     if (axis.low >= axis.high) continue;
@@ -73,6 +75,11 @@ Space::Space(const Scene &scene, const Choice &start, const std::vector<Knob> &k
 Space::Axis Space::axis_of(const Scene &scene, Knob knob) const {
   const Calibrate &c = calibrate_of(scene);
   const double own = start_[knob];
+  if (const auto place = static_cast<std::size_t>(knob); place >= knob_count) {
+    const FreedEntry &freed = c.freed[place - knob_count];
+    if (freed.low > 0) return {true, factor_unit, freed.low, freed.high, one_step};
+    return {false, freed.high - freed.low, freed.low, freed.high, one_step};
+  }
   const auto or_else = [](double bound, double otherwise) { return given(bound) ? bound : otherwise; };
   switch (knob) {
     case Knob::stiffness_ratio:
@@ -172,7 +179,7 @@ std::vector<std::string> Space::at_bounds(const Choice &at) const {
     const double value = number(knobs_[k], at), low = place(axis, axis.low), high = place(axis, axis.high),
                  here = place(axis, value), room = at_bound * (high - low);
     if (here > low + room && here < high - room) continue;
-    const KnobFacts &facts = facts_of(knobs_[k]);
+    const KnobFacts facts = facts_of(asked_, knobs_[k]);
     const bool ratio = knobs_[k] == Knob::shear_strength;
     const double unit = ratio ? 1 : facts.unit;
     all.push_back(fmt::format("{} {:.4g}{} (searched from {:.4g} to {:.4g})",

@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "apps/calibrate/calibrate_section.h"
+#include "apps/calibrate/choice.h"
 #include "apps/calibrate/goals.h"
 #include "apps/calibrate/response_model.h"
 
 namespace platen::apps {
 
-// What Calibrate/Free names, else what the targets need; those whose bounds leave them no room are left out.
+// What Calibrate/Free and Parameter 1, ... name, else what the targets need; those whose bounds leave them no
+// room are left out.
 std::vector<Knob> knobs_of(const Scene &scene);
 
 class Space {
@@ -48,6 +50,7 @@ private:
   static double place(const Axis &axis, double value); // its coordinate
   static double on_its_bound(const Axis &axis, double value);
 
+  const Calibrate &asked_;
   Choice start_;
   std::vector<Knob> knobs_;
   std::vector<Axis> axes_;

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/calibrate/trial_specimen.h"
-
 namespace platen::apps {
+
+constexpr std::size_t curve_points = 16; // at equal steps of strain
 
 struct TargetCurve {
   std::vector<double> strain, stress; // 1, Pa; compression positive, strains ascend from 0 on

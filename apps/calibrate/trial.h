@@ -1,40 +1,54 @@
-// One answer of a packing to one choice of bonds: moduli by static solves, strengths by short explicit runs.
+// One answer of a packing to one choice of bonds: moduli by static solves, all else by a run of
+// platen-compress or platen-brazilian.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "apps/calibrate/choice.h"
-#include "apps/calibrate/trial_specimen.h"
+#include "apps/calibrate/target_curve.h"
+#include "apps/output/summary.h"
 #include "dem/measure/bond_network.h"
 #include "dem/packing/specimen.h"
 
 namespace platen::apps {
 
+// What a packing goes through for one target or several.
+struct SpecimenTest {
+  std::string name = "elastic";     // of its runs: "triaxial_strength_pa"
+  std::string program = "";         // "compress" or "brazilian"; "" of a static solve
+  std::vector<std::string> entries; // "Section/Key = value" over the scene
+  std::vector<std::string> figures; // that are asked of its summary.json
+  // Stresses are kept at `curve_points` equal steps of strain up to here, peak or not; 0: none are.
+  double curve_strain = 0;
+  bool curve_of_gauge = false; // else strain between the platens
+
+  bool loads() const { return !program.empty(); }
+};
+
 struct TrialResult {
   std::string status = "done"; // or why there is no number
-  double young_modulus = not_given, platen_modulus = not_given, poisson_ratio = not_given; // Pa, Pa, 1
-  double strength = not_given, strain_at_peak = not_given;                                 // Pa, 1
-  std::vector<double> curve; // Pa, where the test keeps them; 0 after it has lost all strength
+  Json summary = {};           // by the keys of summary.json; of a static solve the moduli alone
+  std::vector<double> curve;   // Pa, where the test keeps them
   bool good() const { return status == "done"; }
+  double number(const std::string &key) const { return number_in(summary, key); } // NaN: not measured
   // It was not quasi-static: what it bore is not the specimen's strength, and does not count.
   bool too_fast() const { return status.rfind(too_fast_words, 0) == 0; }
   static constexpr const char *too_fast_words = "too fast to be quasi-static";
 };
 
-// The specimen as this test presses it.
-dem::Specimen placed(const dem::Specimen &specimen, const SpecimenTest &test);
+// Moduli of the middle half, between the platens of the scene, at Calibrate/Strain.
+TrialResult solve_statically(const Scene &scene, const dem::Specimen &specimen);
+// Of the bonds of a scene, without a solve.
+dem::NetworkModuli bounds_of(const Scene &scene, const dem::Specimen &specimen);
 
-// Elastic: moduli of the middle half, between the platens of the scene, at Calibrate/Strain. Others: to four
-// fifths of the peak, or the last strain of the curve that is kept: compression between platens, tension
-// between glued ends, splitting between strips, under pressure counted from where it stands on all sides. A
-// peak counts as in platen-compress (judge_peak): a fall by 2 %, or a plateau. One that was too fast by the
-// bounds of platen-compress (apps/run/quasi_static.h) has no result but its status. The strength is the
-// largest mean of both platens' stresses, the pressure included. Moduli are secants at 40 % of what the
-// platens add. Throws Stopped after a signal.
-TrialResult run_test(const Scene &scene, const dem::Specimen &specimen, const Choice &choice,
-                     const SpecimenTest &test);
-// Without a solve.
-dem::NetworkModuli bounds_of(const Scene &scene, const dem::Specimen &specimen, const Choice &choice);
+// Of trials.csv, whatever is asked for. All are known when the stress has fallen to four fifths of its peak.
+extern const std::vector<std::string> usual_figures;
+// What a run beside its test has in common with all trials: it ends when its figures are known, unless a
+// curve is kept, and writes what is read alone.
+std::vector<std::string> entries_of_trials(const Scene &scene, const SpecimenTest &test);
+// What a run that is done tells. A figure that is not valid has no number, and the status its reason.
+TrialResult result_of(const SpecimenTest &test, const Json &summary, const std::filesystem::path &folder);
 
 } // namespace platen::apps

@@ -1,77 +1,29 @@
 #include "apps/calibrate/trials.h"
 
-#include <algorithm>
-#include <atomic>
-#include <fstream>
-#include <iterator>
-#include <mutex>
-#include <numeric>
-#include <sstream>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "apps/calibrate/calibrate_section.h"
-#include "apps/output/file.h"
-#include "apps/output/numbers.h"
-#include "apps/output/sha256.h"
-#include "apps/output/specimen_csv.h"
+#include <algorithm>
+#include <numeric>
+
+#include "apps/output/csv_writer.h"
 #include "apps/output/stop_signal.h"
+#include "apps/programs.h"
 #include "apps/run/packing_cache.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/errors.h"
-#include "apps/scene/regular_file.h"
-#include "apps/scene/units.h"
 #include "base/parallel.h"
 
 namespace platen::apps {
 namespace {
 
-constexpr const char *head = "test,seed,", *tail =
-                                               "status,youngs_modulus_gauge_pa,youngs_modulus_platen_pa,"
-                                               "poisson_ratio,strength_pa,strain_at_peak,curve_pa,checksum";
-constexpr std::size_t first_number = 2, status_at = first_number + knob_count, results_at = status_at + 1,
-                      curve_at = results_at + 5;
-constexpr const char *packing_sums_name = "packings.sha256";
-constexpr std::size_t sum_digits = 16; // of the SHA-256 of a row before its last comma
-
-std::vector<std::string> columns() {
-  std::string all = head;
-  for (const KnobFacts &knob : knob_facts())
-    all += std::string(knob.column) + ",";
-  return cells_of(all + tail);
-}
-
-// What decides the result; elastic trials do not ask for strengths.
-Choice deciding(const Trial &t) {
+// What decides the result; static solves do not ask for strengths.
+Choice deciding(const Scene &scene, const Trial &t) {
   Choice c = t.choice;
-  for (const KnobFacts &knob : knob_facts())
-    if (!t.test.loads() && !knob.elastic) c[knob.knob] = 0;
+  const Choice own = choice_of(scene);
+  for (const KnobFacts &knob : knob_facts(calibrate_of(scene)))
+    if (!t.test.loads() && !knob.elastic) c[knob.knob] = own[knob.knob];
   return c;
-}
-
-std::string key_of(const Trial &t) {
-  std::string key = t.test.name() + "," + std::to_string(t.seed);
-  for (const double number : deciding(t).numbers)
-    key += "," + shortest_text(number);
-  return key;
-}
-
-std::string sum_of_row(std::string_view line) {
-  return sha256_of(line.substr(0, line.rfind(','))).substr(0, sum_digits);
-}
-
-// Stresses of a curve in one cell, blanks between them.
-std::string text_of_curve(const std::vector<double> &curve) {
-  std::string text;
-  for (const double stress : curve)
-    text += (text.empty() ? "" : " ") + shortest_text(stress);
-  return text.empty() ? "-" : text;
-}
-
-std::vector<double> curve_of_text(const std::string &text) {
-  std::vector<double> curve;
-  std::istringstream numbers(text);
-  for (std::string number; numbers >> number;)
-    if (const auto stress = number_of(number)) curve.push_back(*stress);
-  return curve;
 }
 
 // Without what would break a row in two.
@@ -79,24 +31,6 @@ std::string one_cell(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == ',' || c == '\n' || c == '"'; }, ';');
   return text;
-}
-
-// work(k) for k of [0, count), begun in this order, a thread for each: one thread is worth most to a whole
-// trial. A single one may have them all for its loops. After one that throws no other begins.
-template <class Work>
-void in_order(std::size_t count, const Work &work) {
-  std::atomic<std::size_t> next{0};
-  const auto part = [&](std::size_t) {
-    const std::size_t k = next++;
-    if (k >= count) return;
-    try {
-      work(k);
-    } catch (...) {
-      next = count;
-      throw;
-    }
-  };
-  run_loops(loop_of(count, part));
 }
 
 } // namespace
@@ -115,166 +49,147 @@ std::vector<unsigned long> unseen_seeds(const Scene &scene, std::size_t round) {
   return seeds;
 }
 
-Trials::Trials(const Scene &scene, const OutputPaths &paths, bool resume, RunLog &log)
-    : scene_(scene), paths_(paths), log_(log) {
-  if (resume)
-    read_packing_sums(), read();
-  else
-    table_.emplace(paths_.folder / "trials.csv", columns());
+std::vector<std::string> entries_of(const Scene &scene, const CommandLine &command, const SpecimenTest &test,
+                                    const Choice &choice, unsigned long seed) {
+  std::vector<std::string> all = command.overrides;
+  for (const std::vector<std::string> &part :
+       {overrides_of(scene, choice), test.entries,
+        test.loads() ? entries_of_trials(scene, test) : std::vector<std::string>{}})
+    all.insert(all.end(), part.begin(), part.end());
+  all.push_back("Scene/Seed = " + std::to_string(seed));
+  return all;
 }
 
-void Trials::read() {
-  const std::filesystem::path path = paths_.folder / "trials.csv";
-  std::ifstream file = open_file(path);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  const std::size_t end = text.rfind('\n'); // a row that was cut off counts for nothing
-  if (!file || end == std::string::npos)
-    throw InputError(path.string() + ": error: holds no trials to resume from; leave out --resume");
-  std::istringstream lines(text.substr(0, end + 1));
-  std::string line;
-  std::getline(lines, line);
-  if (cells_of(line) != columns())
-    throw InputError(path.string() + ":1: error: has other columns than this version writes");
-  std::string whole = line + '\n';
-  for (int number = 2; std::getline(lines, line); ++number) {
-    const std::vector<std::string> cells = cells_of(line);
-    std::vector<double> values;
-    for (std::size_t k = results_at; k < std::min(curve_at, cells.size()); ++k)
-      if (const auto value = cells[k].empty() ? not_given : number_of(cells[k])) values.push_back(*value);
-    if (cells.size() != columns().size() || values.size() != curve_at - results_at ||
-        cells.back() != sum_of_row(line)) {
-      log_.warning("{}:{}: has been changed since it was written: its trial is made again", path.string(),
-                   number);
-      continue;
-    }
-    whole += line + '\n';
-    std::string key = cells[0] + "," + cells[1];
-    for (std::size_t k = first_number; k < status_at; ++k)
-      key += "," + shortest_text(number_of(cells[k]).value_or(not_given));
-    known_[key] = {cells[status_at],
-                   values[0],
-                   values[1],
-                   values[2],
-                   values[3],
-                   values[4],
-                   curve_of_text(cells[curve_at])};
-  }
-  if (whole.size() < end + 1) write_text_aside(path, whole);
-  table_.emplace(path, columns(), whole.size());
+Trials::Trials(const CommandLine &command, const Scene &scene, const OutputPaths &paths, int threads,
+               RunLog &log)
+    : command_(command),
+      scene_(scene),
+      paths_(paths),
+      shared_(packing_cache(scene.specimen.cache).empty() ? paths.packings().string() : ""),
+      threads_(threads),
+      log_(log) {
+  if (!command.resume) clear_runs(paths, command.overwrite, {});
 }
 
-void Trials::keep(const Trial &t, const TrialResult &r) {
-  const std::string name = t.test.name(), status = one_cell(r.status), curve = text_of_curve(r.curve);
-  std::vector<CsvCell> cells{name, t.seed};
-  for (const double number : deciding(t).numbers)
-    cells.emplace_back(number);
-  cells.insert(cells.end(), {status, r.young_modulus, r.platen_modulus, r.poisson_ratio, r.strength,
-                             r.strain_at_peak, curve});
-  std::string line;
-  for (const CsvCell &cell : cells) {
-    cell.append_to(line);
-    line += ',';
-  }
-  const std::string sum = sum_of_row(line);
-  cells.emplace_back(sum);
-  table_->row(cells);
-  known_[key_of(t)] = r;
-  ++made_;
+Scene Trials::with(const Choice &choice, unsigned long seed) const {
+  return read_scene(command_.scene, entries_of(scene_, command_, {}, choice, seed), *scene_.program);
+}
+
+std::string Trials::key_of(const Trial &t) const {
+  return fmt::format("{} {}", t.test.name,
+                     fmt::join(entries_of(scene_, command_, t.test, deciding(scene_, t), t.seed), "; "));
+}
+
+void Trials::keep(const Trial &t, TrialResult result) {
+  if (!known_.emplace(key_of(t), std::move(result)).second) return;
+  asked_.push_back(t);
 }
 
 const dem::Specimen &Trials::packing(unsigned long seed) {
-  pack({{SpecimenTest{}, seed, Choice{}}});
-  return packings_.at({"", seed});
-}
-
-void Trials::pack(const std::vector<Trial> &trials) {
-  std::vector<Trial> missing;
-  for (const Trial &t : trials)
-    if (packings_.count(packing_of(t)) == 0 &&
-        std::none_of(missing.begin(), missing.end(),
-                     [&](const Trial &m) { return packing_of(m) == packing_of(t); }))
-      missing.push_back(t);
-  std::vector<dem::Specimen> made(missing.size());
-  std::vector<char> changed(missing.size(), 0);
-  const auto name_of = [](const Trial &t) {
-    const std::string form = t.test.form();
-    return (form.empty() ? "" : form + "_") + std::to_string(t.seed);
-  };
-  in_order(missing.size(), [&](std::size_t k) {
-    const std::filesystem::path file = paths_.folder / ("packing_" + name_of(missing[k]) + ".csv");
-    if (const auto sum = packing_sums_.find(file.filename().string()); sum != packing_sums_.end()) {
-      if (sha256_of_file(file) == sum->second) {
-        made[k] = read_specimen_csv(file).specimen;
-        return;
-      }
-      changed[k] = 1;
-    }
-    Scene scene = scene_of_form(scene_, missing[k].test);
-    scene.general.seed = missing[k].seed;
-    RunLog silent(Loudness::quiet); // several threads are here; what is wrong with a packing is made good
-    const bool as_read = missing[k].test.form().empty();
-    made[k] = make_bonded_specimen(scene, as_read ? keep_in_cache(scene, true, silent) : KeepPacking());
-    write_specimen_csv(file, made[k]);
-  });
-  for (std::size_t k = 0; k < missing.size(); ++k) {
-    const std::string form = missing[k].test.form(), name = "packing_" + name_of(missing[k]) + ".csv";
-    if (changed[k] != 0)
-      log_.warning("{}: is not as it was written: packed again", (paths_.folder / name).string());
-    packing_sums_[name] = sha256_of_file(paths_.folder / name).value_or("");
-    log_.info("packing of seed {}{}: {} spheres", missing[k].seed, form.empty() ? "" : " (" + form + ")",
-              made[k].size());
-    packings_[packing_of(missing[k])] = std::move(made[k]);
+  if (packings_.count(seed) == 0) {
+    const ThreadLimit one(1); // a copy of this process makes a run only where it has no other thread
+    packings_[seed] = packed(with(choice_of(scene_), seed));
+    log_.info("packing of seed {}: {} spheres", seed, packings_[seed].size());
   }
-  if (!missing.empty()) write_packing_sums();
+  return packings_.at(seed);
 }
 
-// As sha256sum has them, which can verify them: `sha256sum -c packings.sha256`.
-void Trials::write_packing_sums() const {
-  std::string text;
-  for (const auto &[name, sum] : packing_sums_)
-    text += sum + "  " + name + '\n';
-  write_text_aside(paths_.folder / packing_sums_name, text);
+dem::Specimen Trials::packed(const Scene &scene) const {
+  CommandLine shared = command_;
+  shared.packings = shared_;
+  RunLog silent(Loudness::quiet); // what is wrong with a kept packing is made good
+  return make_bonded_specimen(scene, keep_packing(shared, scene, true, silent));
 }
 
-void Trials::read_packing_sums() {
-  std::ifstream file = open_file(paths_.folder / packing_sums_name);
-  std::string sum, name;
-  while (file >> sum >> name)
-    packing_sums_[name] = sum;
+// deal.II starts threads that stay: each solve is made in a process of its own.
+void Trials::solve(const std::vector<Trial> &trials) {
+  const std::vector<std::string> solved = answers(trials.size(), threads_, [&](std::size_t k) {
+    const ThreadLimit one(1);
+    const Scene scene = with(deciding(scene_, trials[k]), trials[k].seed);
+    const TrialResult result = solve_statically(scene, packed(scene));
+    return Json{{"status", result.status}, {"summary", result.summary}}.dump();
+  });
+  for (std::size_t k = 0; k < trials.size(); ++k) {
+    const Json answer = Json::parse(solved[k]);
+    TrialResult result;
+    result.status = answer["status"], result.summary = answer["summary"];
+    keep(trials[k], std::move(result)), ++made_;
+  }
 }
 
-TrialResult Trials::run(const Trial &t) const {
-  return run_test(scene_, packings_.at(packing_of(t)), t.choice, t.test);
+void Trials::run(const std::vector<Trial> &trials) {
+  const int at_a_time = std::min(threads_, static_cast<int>(trials.size()));
+  std::vector<TestRun> runs;
+  for (const Trial &t : trials) {
+    const std::string tried = fmt::format("{}", fmt::join(overrides_of(scene_, t.choice), "; "));
+    auto choice = std::find(choices_.begin(), choices_.end(), tried);
+    if (choice == choices_.end()) choice = choices_.insert(choices_.end(), tried);
+    TestRun run;
+    run.program = t.test.program;
+    run.seed = t.seed;
+    run.name = fmt::format("trial_{}_{}_seed_{}", choice - choices_.begin() + 1, t.test.name, t.seed);
+    run.folder = paths_.runs() / run.name;
+    run.specimen_of = runs.size();
+    run.scene = command_.scene;
+    run.overrides = entries_of(scene_, command_, t.test, t.choice, t.seed);
+    run.of_this_version = true;
+    start_as(run, std::max(1, threads_ / std::max(1, at_a_time)), shared_);
+    runs.push_back(std::move(run));
+  }
+  carry_out(runs, threads_, log_, [&](std::size_t k, const RunOutcome &outcome) {
+    TrialResult result;
+    if (outcome.done)
+      result = result_of(trials[k].test, outcome.summary, runs[k].folder);
+    else
+      result.status = outcome.reason;
+    keep(trials[k], std::move(result));
+    made_ += outcome.kept ? 0 : 1;
+  });
 }
 
 std::vector<TrialResult> Trials::operator()(const std::vector<Trial> &trials) {
-  std::vector<Trial> open;
+  std::vector<Trial> solves, runs;
+  std::vector<std::string> open;
   for (const Trial &t : trials) {
     const std::string key = key_of(t);
-    if (known_.count(key) > 0 ||
-        std::any_of(open.begin(), open.end(), [&](const Trial &o) { return key_of(o) == key; }))
-      continue;
-    open.push_back(t);
+    if (known_.count(key) > 0 || std::find(open.begin(), open.end(), key) != open.end()) continue;
+    open.push_back(key);
+    (t.test.loads() ? runs : solves).push_back(t);
   }
-  pack(open);
-  std::vector<std::optional<TrialResult>> results(open.size());
-  std::mutex mutex;
-  std::size_t written = 0;
-  in_order(open.size(), [&](std::size_t k) {
-    if (stop_requested() != 0) return;
-    TrialResult result = run(open[k]);
-    const std::lock_guard<std::mutex> lock(mutex);
-    results[k] = std::move(result);
-    for (; written < open.size() && results[written]; ++written)
-      keep(open[written], *results[written]);
-  });
-  if (stop_requested() != 0) throw Stopped{stop_requested()};
+  if (!solves.empty()) solve(solves);
+  if (!runs.empty()) run(runs);
+  if (!open.empty()) write();
   std::vector<TrialResult> all;
   for (const Trial &t : trials) {
     all.push_back(known_.at(key_of(t)));
     if (!all.back().good()) ++failed_;
   }
   return all;
+}
+
+void Trials::write() const {
+  std::vector<std::string> figures = usual_figures, columns{"test", "seed"};
+  for (const Trial &t : asked_)
+    for (const std::string &key : t.test.figures)
+      if (std::find(figures.begin(), figures.end(), key) == figures.end()) figures.push_back(key);
+  const std::vector<KnobFacts> knobs = knob_facts(calibrate_of(scene_));
+  for (const KnobFacts &knob : knobs)
+    columns.push_back(knob.column);
+  columns.emplace_back("status");
+  columns.insert(columns.end(), figures.begin(), figures.end());
+  WholeTable table(paths_.folder / "trials.csv", columns);
+  for (const Trial &t : asked_) {
+    const TrialResult &result = known_.at(key_of(t));
+    const std::string status = one_cell(result.status);
+    std::vector<CsvCell> cells{t.test.name, t.seed};
+    for (const KnobFacts &knob : knobs)
+      cells.emplace_back(deciding(scene_, t)[knob.knob]);
+    cells.emplace_back(status);
+    for (const std::string &key : figures)
+      cells.emplace_back(result.number(key));
+    table.row(cells);
+  }
+  table.finish();
 }
 
 } // namespace platen::apps

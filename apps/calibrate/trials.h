@@ -1,17 +1,15 @@
-// The trials of a calibration: packings and results are kept in the output folder, so that none is made
-// twice.
+// The trials of a calibration. Runs keep their results in the output folder, so that none is made twice.
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "apps/calibrate/trial.h"
-#include "apps/output/csv_writer.h"
+#include "apps/many/runs.h"
 #include "apps/output/output_folder.h"
 #include "apps/output/run_log.h"
+#include "apps/scene/command_line.h"
 
 namespace platen::apps {
 
@@ -25,40 +23,42 @@ struct Trial {
 std::vector<unsigned long> training_seeds(const Scene &scene);
 std::vector<unsigned long> unseen_seeds(const Scene &scene, std::size_t round = 0); // others in each round
 
+// Entries of the scene with which a test is made of the scene's own bonds, over those of the command line.
+std::vector<std::string> entries_of(const Scene &scene, const CommandLine &command, const SpecimenTest &test,
+                                    const Choice &choice, unsigned long seed);
+
 class Trials {
 public:
-  // `resume`: trials.csv of the folder is read; rows that are whole and as they were written count (their
-  // checksum), for the others it is told that they are made again; so it is for packings. Throws InputError
-  // where it is not such a table.
-  Trials(const Scene &scene, const OutputPaths &paths, bool resume, RunLog &log);
+  Trials(const CommandLine &command, const Scene &scene, const OutputPaths &paths, int threads, RunLog &log);
 
-  // Results in the order of the trials. What trials.csv knows is taken from there; the rest runs, as many at
-  // a time as there are threads, and is written in the order of the trials as soon as it and all before it
-  // are done. Packings are made on the way. Throws Stopped after a signal.
+  // Results in the order of the trials. Each run is a process with an output folder of its own below runs/;
+  // one that is whole there, of this scene and these entries, is kept (carry_out). Static solves are made
+  // here and made again by --resume. trials.csv is written anew. Throws Stopped after a signal.
   std::vector<TrialResult> operator()(const std::vector<Trial> &trials);
   const dem::Specimen &packing(unsigned long seed); // of the scene's own form
+  Scene with(const Choice &choice, unsigned long seed) const;
 
   long made() const { return made_; }     // here, not read
   long failed() const { return failed_; } // of all that were asked for
 
 private:
-  using PackingName = std::pair<std::string, unsigned long>; // form and seed
-  static PackingName packing_of(const Trial &trial) { return {trial.test.form(), trial.seed}; }
-  // Makes what packings are missing, several at a time.
-  void pack(const std::vector<Trial> &trials);
-  TrialResult run(const Trial &trial) const;
-  void read();
-  void read_packing_sums();
-  void write_packing_sums() const;
-  void keep(const Trial &trial, const TrialResult &result);
+  std::string key_of(const Trial &trial) const;
+  void solve(const std::vector<Trial> &trials);
+  void run(const std::vector<Trial> &trials);
+  dem::Specimen packed(const Scene &scene) const;
+  void keep(const Trial &trial, TrialResult result);
+  void write() const;
 
+  const CommandLine &command_;
   const Scene &scene_;
   OutputPaths paths_;
+  std::string shared_; // folder of packings; "": the user's cache has them
+  int threads_;
   RunLog &log_;
-  std::map<PackingName, dem::Specimen> packings_;
-  std::map<std::string, std::string> packing_sums_; // file to SHA-256: of those that can be read back
+  std::map<unsigned long, dem::Specimen> packings_;
+  std::vector<std::string> choices_; // entries of those that were tried, by number less one
   std::map<std::string, TrialResult> known_;
-  std::optional<CsvWriter> table_;
+  std::vector<Trial> asked_; // what is known, in the order in which it was asked for
   long made_ = 0, failed_ = 0;
 };
 

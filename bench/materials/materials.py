@@ -30,18 +30,17 @@ TITLES = {**MATERIALS, "concrete": "parts/concrete.prm, spheres of 2.2 mm"}
 # the word of Bond/Calibrated figures for which it has to be met; all of one word have to. Strengths under pressure: 10 %, "confined".
 TARGETS = {"youngs_modulus_gauge_pa": ("E", 1e9, "GPa", 3, "elastic"), "poisson_ratio": ("Poisson's ratio", 1, "", 3, "elastic"),
            "compressive_strength_pa": ("strength", 1e6, "MPa", 5, "compression"), "tensile_strength_pa": ("tension", 1e6, "MPa", 5, "tension"),
-           "gain_by_friction": ("gain of a cube by friction", 1, "", 12, "friction"),
-           "gain_by_friction_2": ("gain of a cylinder by friction", 1, "", 3, "friction"),
-           "strength_over_slender": ("strength at h/d 1 over 2", 1, "", 5, "slenderness"),
+           "strength_pa_ratio": ("gain of a cube by friction", 1, "", 12, "friction"),
+           "strength_pa_ratio_2": ("gain of a cylinder by friction", 1, "", 3, "friction"),
+           "strength_pa_ratio_3": ("strength at h/d 1 over 2", 1, "", 5, "slenderness"),
            "secant_poisson_ratio": ("Poisson's ratio to 40 %", 1, "", 15, "secant ratio")}
 ALL_WORDS = ("elastic", "compression", "confined", "tension", "friction", "slenderness", "secant ratio")
 
 
 def figures(folder):
     """For each target of a search: name, unit, wanted, mean and deviation of the unseen packings, how far off and how far allowed (%), word."""
-    sections = re.findall(r"subsection Target \d+\n(.*?)\n  end", (folder / "found.prm").read_text(), re.S)
-    for target, section in zip(platen.Run(folder).summary["targets"], sections, strict=True):
-        pressure = re.search(r"set Pressure *= *(\S.*)", section)
+    for target in platen.Run(folder).summary["targets"]:
+        pressure = re.search(r"Confining pressure = ([^,:]+)", target["target"])
         name, factor, unit, allowed, word = (f"strength at {pressure[1].strip()}", 1e6, "MPa", 10, "confined") if pressure else TARGETS[target["key"]]
         seen = target["verification"]
         yield name, unit, target["wanted"] / factor, seen["mean"] / factor, seen["deviation"] / factor, 100 * target["verification_miss"], allowed, word
@@ -51,11 +50,11 @@ def secants(folder):
     """Of the compression tests of the unseen packings, as text: E and Poisson's ratio from the start to 40 % of the strength (GPa, -), and the
     strain at the peak (mm/m); nothing where strength was no target. Above 0.5, which no elastic specimen has, a test reports no ratio."""
     seeds = platen.Run(folder).summary["verification"].get("compressive_strength_pa", {"seeds": 0})["seeds"]
-    rows = [row for row in platen.read_table(folder / "trials.csv").records() if row["test"] == "compression"]
+    rows = [row for row in platen.read_table(folder / "trials.csv").records() if row["test"] == "compressive_strength_pa"]
     if not seeds:
         return []
     found = [[factor * row[name] for row in rows[-seeds:]] for name, factor in (("youngs_modulus_gauge_pa", 1e-9), ("poisson_ratio", 1),
-                                                                                ("strain_at_peak", 1e3))]
+                                                                                ("strain_at_peak_platen", 1e3))]
     (e, ratio, peak), above = [(statistics.mean(values), statistics.stdev(values)) for values in found], sum(value > 0.5 for value in found[1])
     return [f"{e[0]:.3g} +- {e[1]:.2g}", f"none (above 0.5 in {above} of 5)" if above else f"{ratio[0]:.2g} +- {ratio[1]:.1g}", f"{peak[0]:.3g} +- {peak[1]:.2g}"]
 
@@ -186,24 +185,10 @@ subsection Calibrate
   set Verification seeds = 0
   set Most trials = 1
   set Free =
-  subsection Target 1
-    set Kind = secant ratio
-    set Value = 0.2
-  end
-  subsection Target 2
-    set Kind = gain by friction
-    set Value = 1.42
-    set Form = box
-    set Slenderness = 1
-  end
-  subsection Target 3
-    set Kind = gain by friction
-    set Value = 1.08
-  end
-  subsection Target 4
-    set Kind = slenderness
-    set Value = 1.15
-  end
+  set Target 1 = poisson_ratio: 0.2
+  set Target 2 = strength_pa at Specimen/Shape = box, Specimen/Radius =, Specimen/Width x = 50 mm, Specimen/Width y = 50 mm, {short} over Platens/Friction static = 0: 1.42
+  set Target 3 = strength_pa over Platens/Friction static = 0: 1.08
+  set Target 4 = strength_pa at {short} over Specimen/Height = 100 mm, Loading/Axial rate = {rate}, Loading/Target strain = {strain}: 1.15
 end
 """
 
@@ -217,8 +202,9 @@ def measure(build, folder, names):
         loading = sections(ROOT / "scenes" / f"{search}.prm")["Loading"]
         scene = folder / f"{name}.prm"
         scene.parent.mkdir(parents=True, exist_ok=True)
-        scene.write_text(MEASURE.format(include=ROOT / "scenes" / include, name=name, seeds=SEEDS, rate=entry(loading, "Axial rate"),
-                                        strain=entry(loading, "Target strain")))
+        rate, strain = entry(loading, "Axial rate"), entry(loading, "Target strain")
+        short = f"Specimen/Height = 50 mm, Loading/Axial rate = {float(rate.split()[0]) / 2:g} m/s, Loading/Target strain = {2 * float(strain):g}"
+        scene.write_text(MEASURE.format(include=ROOT / "scenes" / include, name=name, seeds=SEEDS, rate=rate, strain=strain, short=short))
         to = folder / name
         if (to / "summary.json").exists():
             continue
@@ -234,11 +220,11 @@ def platen_rows(folder):
     by = {(row["test"], row["seed"]): row for row in rows}
     for seed in sorted({row["seed"] for row in rows}):
         strength = {test: row["strength_pa"] for (test, of), row in by.items() if of == seed}
-        bare = strength["compression"]
-        yield {"cube": strength["compression box_1"] / strength["compression box_1 friction 0"],
-               "cylinder": bare / strength["compression friction 0"],
-               "slenderness": strength["compression slenderness_1"] / bare,
-               "secant": by["compression", seed]["poisson_ratio"], "strength": 1e-6 * bare}
+        bare = strength["secant_poisson_ratio"]
+        yield {"cube": strength["strength_pa_ratio"] / strength["strength_pa_ratio_over"],
+               "cylinder": bare / strength["strength_pa_ratio_2_over"],
+               "slenderness": strength["strength_pa_ratio_3"] / strength["strength_pa_ratio_3_over"],
+               "secant": by["secant_poisson_ratio", seed]["poisson_ratio"], "strength": 1e-6 * bare}
 
 
 def platen_cell(name, rows, source):

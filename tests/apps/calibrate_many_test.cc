@@ -63,7 +63,7 @@ std::vector<Target> eight_targets(double tolerance) {
           target_of(TargetKind::tension, 4.5e6, tolerance),
           at_pressure(3e6, 62e6, tolerance),
           at_pressure(9e6, 83e6, tolerance),
-          target_of(TargetKind::gain_by_friction, 1.45, tolerance)};
+          target_of(TargetKind::ratio, 1.45, tolerance)};
 }
 
 std::size_t place_of(const Goals &goals, const Goal &goal) {
@@ -93,7 +93,7 @@ TEST(ManyTargets, eight_parameters_of_a_manufactured_response_are_recovered) {
   EXPECT_LE(f.trials, 40);
   double off = 0;
   for (std::size_t k = 0; k < eight.size(); ++k) {
-    EXPECT_NEAR(f.choice[eight[k]] / truth[k], 1, 0.03) << facts_of(eight[k]).words;
+    EXPECT_NEAR(f.choice[eight[k]] / truth[k], 1, 0.03) << facts_of(Calibrate(), eight[k]).words;
     off = std::max(off, std::abs(f.choice[eight[k]] / truth[k] - 1));
   }
   measured::expect_below(54, "worst_of_eight_parameters_off", off, 0.03);
@@ -104,52 +104,139 @@ TEST(ManyTargets, eight_parameters_of_a_manufactured_response_are_recovered) {
   for (Eigen::Index knob = 0; knob < 8; ++knob)
     for (Eigen::Index goal = 0; goal < 8; ++goal)
       EXPECT_NEAR(a.sensitivities(knob, goal), exponents[goal][knob], 0.18)
-          << facts_of(eight[static_cast<std::size_t>(knob)]).words << " "
+          << facts_of(Calibrate(), eight[static_cast<std::size_t>(knob)]).words << " "
           << goals.all()[static_cast<std::size_t>(goal)].words;
   for (Eigen::Index knob = 0; knob < 8; ++knob)
     EXPECT_NEAR(a.correlations(knob, knob), 1, 1e-9);
 }
 
-// One run of the scene's cylinder serves its strength, its secant ratio and what a short one is compared
-// with.
-TEST(ManyTargets, a_short_specimen_is_compared_with_one_twice_as_high_as_wide) {
+// One run of the scene's cylinder serves its strength, its secant ratio and what a short one is over.
+TEST(ManyTargets, share_the_runs_that_are_the_same) {
   Scene scene = yielding_scene();
-  scene.specimen.radius = 0.025, scene.specimen.height = 0.1;
-  scene.own<Calibrate>().targets = {target_of(TargetKind::strength, 43e6),
-                                    target_of(TargetKind::slenderness, 1.15),
-                                    target_of(TargetKind::secant_ratio, 0.2)};
-  const auto names = [&] {
-    const Goals goals(scene);
-    std::vector<std::string> all;
-    for (const SpecimenTest &test : goals.tests())
-      all.push_back(test.name());
-    return all;
-  };
-  EXPECT_EQ(names(), (std::vector<std::string>{"compression", "compression slenderness_1", "elastic"}));
+  scene.own<Calibrate>().targets = {
+      read_target("strength_pa: 43 MPa +- 2 %"),
+      read_target("strength_pa at Specimen/Height = 50 mm over Specimen/Height = 100 mm: 1.15 +- 2 %"),
+      read_target("poisson_ratio: 0.2 +- 2 %"),
+      read_target("strain_at_peak_platen at Specimen/Height = 50 mm: 2 mm/m +- 2 %")};
   const Goals goals(scene);
-  std::vector<TrialResult> packing(3);
-  packing[0].strength = 40e6, packing[0].poisson_ratio = 0.3;
-  packing[1].strength = 50e6, packing[1].poisson_ratio = 0.25;
-  packing[2].poisson_ratio = 0.2;
+  std::vector<std::string> names;
+  for (const SpecimenTest &test : goals.tests())
+    names.push_back(test.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"compressive_strength_pa", "strength_pa_ratio",
+                                             "strength_pa_ratio_over", "elastic"}));
+  EXPECT_EQ(goals.tests()[0].figures, (std::vector<std::string>{"strength_pa", "poisson_ratio"}));
+  EXPECT_EQ(goals.tests()[1].figures, (std::vector<std::string>{"strength_pa", "strain_at_peak_platen"}));
+  std::vector<TrialResult> packing(4);
+  packing[0].summary = {{"strength_pa", 40e6}, {"poisson_ratio", 0.3}};
+  packing[1].summary = {{"strength_pa", 50e6}, {"strain_at_peak_platen", 2.5e-3}};
+  packing[2].summary = {{"strength_pa", 25e6}};
+  packing[3].summary = {{"poisson_ratio", 0.2}};
   const Measured m = goals.measured(packing);
-  EXPECT_DOUBLE_EQ(m.numbers[1].mean(), 1.25);
+  EXPECT_DOUBLE_EQ(m.numbers[0].mean(), 40e6);
+  EXPECT_DOUBLE_EQ(m.numbers[1].mean(), 2);
   EXPECT_DOUBLE_EQ(m.numbers[2].mean(), 0.3);
+  EXPECT_DOUBLE_EQ(m.numbers[3].mean(), 2.5e-3);
   EXPECT_FALSE(goals.met(1, m));
-  scene.specimen.height = 0.08;
-  EXPECT_EQ(names(), (std::vector<std::string>{"compression", "compression slenderness_1",
-                                               "compression slenderness_2", "elastic"}));
 }
 
 // As the words have it: a ratio of strengths is no strength.
-TEST(ManyTargets, are_told_in_the_unit_of_their_words) {
-  for (int k = 0; k <= static_cast<int>(TargetKind::secant_ratio); ++k) {
-    const auto kind = static_cast<TargetKind>(k);
-    const std::string words = words_of(target_of(kind, 1));
-    const auto in = [&](const char *unit) {
-      return words.find(std::string(", ") + unit) != std::string::npos;
+TEST(ManyTargets, are_reported_in_the_unit_of_their_words) {
+  for (const auto &[text, unit] :
+       std::vector<std::pair<std::string, double>>{{"young modulus: 30 GPa", 1e9},
+                                                   {"poisson ratio: 0.2", 1},
+                                                   {"strength_pa: 40 MPa", 1e6},
+                                                   {"strain_at_peak_platen: 2 mm/m", 1e-3},
+                                                   {"tension: 4 MPa", 1e6},
+                                                   {"splitting: 4 MPa", 1e6},
+                                                   {"strength_pa over Platens/Friction static = 0: 1.4", 1},
+                                                   {"youngs_modulus_gauge_pa: 30 GPa", 1e9},
+                                                   {"middle_damage: 0.4", 1},
+                                                   {"curve 1", 1}}) {
+    const Target target = read_target(text);
+    EXPECT_EQ(target.unit(), unit) << text;
+    const std::string words = target.words();
+    const auto in = [&](const char *name) {
+      return words.find(std::string(", ") + name) != std::string::npos;
     };
-    EXPECT_EQ(unit_on_screen(kind), in("GPa") ? 1e9 : in("MPa") ? 1e6 : in("mm/m") ? 1e-3 : 1) << words;
+    EXPECT_EQ(unit, in("GPa") ? 1e9 : in("MPa") ? 1e6 : in("mm/m") ? 1e-3 : 1) << words;
   }
+}
+
+TEST(TargetLine, says_figure_test_value_and_tolerance) {
+  const Target at = read_target(
+      "strength_pa at Loading/Confinement = particles, Loading/Confining pressure = 9 MPa: "
+      "82 MPa +- 3 %");
+  EXPECT_EQ(at.kind, TargetKind::strength_at_pressure);
+  EXPECT_EQ(at.entries, (std::vector<std::string>{"Loading/Confinement = particles",
+                                                  "Loading/Confining pressure = 9 MPa"}));
+  EXPECT_DOUBLE_EQ(at.value, 82e6);
+  EXPECT_DOUBLE_EQ(at.tolerance, 0.03);
+  EXPECT_TRUE(at.over.empty());
+  // A tolerance in the unit of the figure; a test that is the same but for what stands after over.
+  const Target over = read_target(
+      "strength_pa at Specimen/Radius =, Specimen/Height = 5 cm over Specimen/Height = 1 dm: 1.2");
+  EXPECT_EQ(over.entries, (std::vector<std::string>{"Specimen/Radius =", "Specimen/Height = 5 cm"}));
+  EXPECT_EQ(over.over, (std::vector<std::string>{"Specimen/Radius =", "Specimen/Height = 1 dm"}));
+  EXPECT_EQ(over.kind, TargetKind::ratio);
+  EXPECT_DOUBLE_EQ(read_target("strength_pa: 40 MPa +- 2 MPa").tolerance, 0.05);
+  EXPECT_TRUE(std::isnan(read_target("strength_pa: 40 MPa").tolerance));
+  const Target curve = read_target("curve 2 at Platens/Friction static = 0.1: +- 5 %");
+  EXPECT_EQ(curve.curve, 2);
+  EXPECT_EQ(curve.entries.size(), 1u);
+  EXPECT_DOUBLE_EQ(curve.tolerance, 0.05);
+  EXPECT_EQ(read_target("splitting: 4 MPa").program, "brazilian");
+}
+
+// Shortest tests of tension and splitting: what the line says stays.
+TEST(TargetLine, completes_the_tests_of_tension_and_splitting) {
+  Scene scene = yielding_scene();
+  scene.specimen.radius = 0.025, scene.specimen.height = 0.1;
+  scene.loading.rate = 0.08, scene.loading.target_strain = 0.01;
+  const auto entries = [&](const char *text) {
+    Target target = read_target(text);
+    complete_test(target, scene, 0.008);
+    return target.entries;
+  };
+  EXPECT_EQ(entries("tension: 4 MPa"),
+            (std::vector<std::string>{"Loading/Test = tension", "Platens/Attachment = glued",
+                                      "Loading/Axial rate = 0.008 m/s", "Loading/Target strain = 0.0025"}));
+  EXPECT_EQ(entries("tension at Loading/Axial rate = 5 mm/s: 4 MPa").front(), "Loading/Axial rate = 5 mm/s");
+  EXPECT_EQ(entries("tension at Loading/Axial rate = 5 mm/s: 4 MPa").size(), 4u);
+  EXPECT_EQ(entries("splitting: 4 MPa"),
+            (std::vector<std::string>{"Specimen/Shape = disc", "Specimen/Height = 0.025 m",
+                                      "Loading/Axial rate = 0.01 m/s", "Loading/Target strain = 0.005",
+                                      "Platens/Strip width = 0.005 m"}));
+  EXPECT_TRUE(entries("strength_pa: 40 MPa").empty());
+}
+
+// Any number of the scene: its logarithm where it cannot be zero, itself where it can.
+TEST(ManyTargets, any_entry_of_the_scene_is_found) {
+  Scene scene = yielding_scene();
+  Calibrate &c = scene.own<Calibrate>();
+  FreedEntry rolling, gap;
+  rolling.path = "Contact/Rolling friction", rolling.low = 0, rolling.high = 0.5, rolling.own = 0.1;
+  gap.path = "Bond/Fracture energy", gap.low = 5, gap.high = 500, gap.own = 20;
+  rolling.unit = "1", gap.unit = "J/m2";
+  c.freed = {rolling, gap};
+  c.targets = {target_of(TargetKind::strength, 40e6), target_of(TargetKind::other, 0.3)};
+  c.targets[1].figure = "middle_damage";
+  const std::vector<Knob> knobs = knobs_of(scene);
+  ASSERT_EQ(knobs.size(), 2u);
+  const Goals goals(scene);
+  const Found f = search(scene, goals, test_of(goals, [&](const Goal &goal, const Choice &at) {
+                           const double r = at[knobs[0]], g = at[knobs[1]] / 100;
+                           return goal.target.kind == TargetKind::strength
+                                      ? 40e6 * std::pow(g, 0.4) * (0.7 + r)
+                                      : 0.3 * std::pow(g, -0.2) * (1.3 - r);
+                         }));
+  EXPECT_NEAR(f.choice[knobs[0]], 0.3, 0.03);
+  EXPECT_NEAR(f.choice[knobs[1]], 100, 8);
+  EXPECT_TRUE(f.sensitivities.measured); // nothing is known of them beforehand
+  EXPECT_EQ(facts_of(c, knobs[1]).column, "Bond_Fracture_energy");
+  const std::vector<std::string> overrides = overrides_of(scene, f.choice);
+  ASSERT_EQ(overrides.size(), 2u);
+  EXPECT_EQ(overrides[0].rfind("Contact/Rolling friction = 0.", 0), 0u) << overrides[0];
+  EXPECT_NE(overrides[1].find(" J/m2"), std::string::npos) << overrides[1];
 }
 
 // Strength and tension that both go with the product of limits and contact friction.
@@ -191,14 +278,15 @@ TEST(ManyTargets, parameters_that_act_as_one_are_told) {
   EXPECT_NE(a.undetermined[0].find("contact friction"), std::string::npos);
 }
 
-// One number cannot be two: the nearest lies between, by their weights, and each pulls against the other.
+// One number cannot be two: the nearest lies between, by their tolerances, and each pulls against the other.
 TEST(ManyTargets, what_cannot_be_met_together_is_told_with_what_pulls) {
   Scene scene = yielding_scene();
   scene.own<Calibrate>().targets = {target_of(TargetKind::strength, 40e6),
                                     target_of(TargetKind::strength, 50e6),
                                     target_of(TargetKind::tension, 4.5e6)};
-  scene.own<Calibrate>().targets[1].box = true;
-  scene.own<Calibrate>().targets[1].weight = 3;
+  scene.own<Calibrate>().targets[1].entries = {"Specimen/Height = 50 mm"};
+  scene.own<Calibrate>().targets[1].number = 2;
+  scene.own<Calibrate>().targets[1].tolerance = 0.02 / std::sqrt(3.0);
   scene.own<Calibrate>().free = {Knob::tensile_strength, Knob::shear_strength};
   scene.own<Calibrate>().differences = true;
   const Goals goals(scene);
@@ -206,12 +294,12 @@ TEST(ManyTargets, what_cannot_be_met_together_is_told_with_what_pulls) {
                            const bool tension = goal.target.kind == TargetKind::tension;
                            return tension ? 0.5 * c[Knob::tensile_strength] : c[Knob::shear_strength];
                          }));
-  // Least squares of logarithms, weights 1 and 3.
+  // Least squares of logarithms over tolerances: weights 1 and 3.
   EXPECT_NEAR(f.choice[Knob::shear_strength], std::exp(0.25 * std::log(40e6) + 0.75 * std::log(50e6)), 2e5);
   EXPECT_NEAR(f.choice[Knob::tensile_strength], 9e6, 0.02 * 9e6);
   const std::vector<std::string> lines = missed(goals, f);
   ASSERT_EQ(lines.size(), 2u);
-  EXPECT_NE(lines[0].find("against it pulls compressive strength, MPa, box"), std::string::npos) << lines[0];
+  EXPECT_NE(lines[0].find("against it pulls (2) compressive strength, MPa"), std::string::npos) << lines[0];
   EXPECT_EQ(goals.all()[1].key, "compressive_strength_pa_2");
 }
 

@@ -10,14 +10,15 @@
 namespace platen::apps {
 
 inline Target target_of(TargetKind kind, double value, double tolerance = 0.02) {
-  Target target;
-  target.kind = kind, target.value = value, target.tolerance = tolerance;
+  const bool elastic = kind == TargetKind::young_modulus || kind == TargetKind::poisson_ratio;
+  Target target = elastic ? elastic_target(kind, value) : strength_target(value);
+  target.kind = kind, target.tolerance = tolerance;
   return target;
 }
 
 inline Target at_pressure(double pressure, double value, double tolerance = 0.02) {
-  Target target = target_of(TargetKind::strength_at_pressure, value, tolerance);
-  target.pressure = pressure;
+  Target target = strength_target(value, pressure);
+  target.tolerance = tolerance;
   return target;
 }
 

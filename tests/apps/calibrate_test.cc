@@ -160,23 +160,26 @@ std::vector<std::string> wanted(const nlohmann::json &known) {
 
 TEST_F(CalibrateApp, packings_are_found_in_the_cache_by_another_calibration) {
   setenv("PLATEN_CACHE", (folder / "kept").c_str(), 1);
-  const auto packing = [&](const char *of, int seed) {
-    return text_of(folder / of / ("packing_" + std::to_string(seed) + ".csv"));
-  };
-  run({"Calibrate/Mode = abacus", "Calibrate/Seeds = 1"}, "a");
-  const fs::path kept = [&] {
-    for (const auto &entry : fs::directory_iterator(folder / "kept"))
+  const auto packing_in = [&](const fs::path &at) {
+    for (const auto &entry : fs::directory_iterator(at))
       if (entry.path().extension() == ".csv") return entry.path();
     return fs::path();
-  }();
-  ASSERT_FALSE(kept.empty());
-  run({"Calibrate/Mode = abacus", "Calibrate/Seeds = 1", "Scene/Seed = 5", "Specimen/Cache = none"}, "b");
-  ASSERT_NE(packing("a", 4), packing("b", 5));
-  // The spheres of the second, planted under the recipe of the first.
-  const std::string text = text_of(kept), planted = text.substr(0, text.find('\n') + 1) + packing("b", 5);
+  };
+  const auto modulus = [&](const std::vector<std::string> &more, const char *to) {
+    std::vector<std::string> asked{"Calibrate/Mode = abacus", "Calibrate/Seeds = 1"};
+    asked.insert(asked.end(), more.begin(), more.end());
+    return run(asked, to)["abacus"][0]["youngs_modulus_gauge_pa"].get<double>();
+  };
+  const double first = modulus({}, "a"), second = modulus({"Scene/Seed = 5", "Specimen/Cache = none"}, "b");
+  ASSERT_NE(first, second);
+  const fs::path kept = packing_in(folder / "kept"), other = packing_in(folder / "b/packings");
+  ASSERT_FALSE(kept.empty() || other.empty());
+  // The spheres of the second, planted under the recipe of the first: a line of it, spheres, a checksum.
+  const std::string text = text_of(kept), spheres = text_of(other);
+  std::string planted = text.substr(0, text.find('\n') + 1) + spheres.substr(spheres.find('\n') + 1);
+  planted.resize(planted.rfind("# sha256"));
   std::ofstream(kept, std::ios::binary) << planted << "# sha256 of all above: " << sha256_of(planted) << "\n";
-  run({"Calibrate/Mode = abacus", "Calibrate/Seeds = 1"}, "c", false, 2);
-  EXPECT_EQ(packing("c", 4), packing("b", 5));
+  EXPECT_EQ(modulus({}, "c"), second);
 }
 
 TEST_F(CalibrateApp, the_search_recovers_the_bonds_of_a_known_specimen) {
@@ -209,12 +212,15 @@ TEST_F(CalibrateApp, a_search_that_was_cut_off_goes_on_to_the_same_answer) {
                                  "Calibrate/Tolerance = 0.05"};
   run(asked, "a", false, 2);
   const std::string found = text_of(folder / "a/found.prm"), trials = text_of(folder / "a/trials.csv");
-  const fs::path table = folder / "a/trials.csv";
-  fs::resize_file(table, trials.size() / 2 + 3); // in the middle of a row
-  fs::remove(folder / "a/found.prm");
-  run(asked, "a", true);
+  const fs::path one = folder / "a/runs/trial_2_tensile_strength_pa_seed_5";
+  ASSERT_TRUE(fs::exists(one / "summary.json"));
+  fs::remove(one / "summary.json");
+  for (const char *file : {"found.prm", "trials.csv", "summary.json"})
+    fs::remove(folder / "a" / file);
+  const auto again = run(asked, "a", true);
+  EXPECT_TRUE(fs::exists(one / "summary.json"));
   EXPECT_EQ(text_of(folder / "a/found.prm"), found);
-  EXPECT_EQ(text_of(table), trials);
+  EXPECT_EQ(text_of(folder / "a/trials.csv"), trials);
   const auto refused = [&](const std::string &to) -> std::string {
     try {
       run(asked, to, true);
@@ -248,7 +254,7 @@ TEST_F(CalibrateApp, a_signal_ends_it_within_a_trial) {
   EXPECT_EQ(program.wait(), exit_status_of_signal(SIGTERM)) << text_of(folder / "error");
   const std::string rows = text_of(table);
   EXPECT_NE(rows.find("elastic,"), std::string::npos);
-  EXPECT_EQ(rows.find("compression,"), std::string::npos) << rows;
+  EXPECT_EQ(rows.find("compressive_strength_pa,"), std::string::npos) << rows;
   EXPECT_FALSE(fs::exists(folder / "a/summary.json"));
 }
 
@@ -285,7 +291,7 @@ TEST_F(CalibrateApp, runs_without_a_peak_are_counted_and_not_fatal) {
   EXPECT_GT(s["failed_trials"].get<int>(), 0);
   EXPECT_EQ(s["status"], "done");
   EXPECT_NEAR(s["strength_pa"].get<double>(), 20e6, 2e6);
-  EXPECT_NE(text_of(folder / "a/trials.csv").find("no peak before the largest strain"), std::string::npos);
+  EXPECT_NE(text_of(folder / "a/trials.csv").find("no peak"), std::string::npos);
 }
 
 // What a fast test bears is not the specimen's strength: no bonds are found by it.
@@ -308,15 +314,16 @@ TEST_F(CalibrateApp, trials_that_are_too_fast_do_not_count) {
       EXPECT_NE(says.find(part), std::string::npos) << says;
   }
   const std::string rows = text_of(folder / "fast/trials.csv");
-  const auto compression = rows.find("\ncompression");
+  const auto compression = rows.find("\ncompressive_strength_pa");
   ASSERT_NE(compression, std::string::npos) << rows;
   EXPECT_NE(rows.find("too fast to be quasi-static", compression), std::string::npos) << rows;
-  EXPECT_EQ(rows.find("\ncompression", compression + 1), std::string::npos) << rows; // one is enough
+  EXPECT_EQ(rows.find("\ncompressive_strength_pa", compression + 1), std::string::npos)
+      << rows; // one is enough
   // Before anything is packed the dry run says so, and of a slow one nothing.
   const auto told = [&](const char *rate) {
     std::vector<std::string> entries = asked;
     entries.back() = std::string("Loading/Axial rate = ") + rate;
-    command.dry_run = true;
+    command.overrides = entries, command.dry_run = true;
     ::testing::internal::CaptureStdout();
     EXPECT_EQ(run_calibrate(command, read(entries)), status_done);
     return ::testing::internal::GetCapturedStdout();
@@ -330,11 +337,10 @@ TEST_F(CalibrateApp, trials_that_are_too_fast_do_not_count) {
 // Screen, summary and page tell one number of a curve: that which decides whether it is met.
 TEST_F(CalibrateApp, a_curve_is_told_by_what_it_is_judged_by) {
   std::ofstream(folder / "curve.csv") << "strain_platen,stress_mpa\n0.001,15\n0.002,28\n0.003,30\n";
-  const auto s = run(
-      {"Calibrate/Seeds = 2", "Calibrate/Verification seeds = 0", "Calibrate/Most trials = 1",
-       "Calibrate/Free = modulus, tensile strength", "Calibrate/Target 1/Kind = curve",
-       "Calibrate/Target 1/File = " + (folder / "curve.csv").string(), "Calibrate/Target 1/Tolerance = 0.01"},
-      "a");
+  const auto s = run({"Calibrate/Seeds = 2", "Calibrate/Verification seeds = 0", "Calibrate/Most trials = 1",
+                      "Calibrate/Free = modulus, tensile strength", "Calibrate/Target 1 = curve 1: +- 1 %",
+                      "Calibrate/Curve 1 = " + (folder / "curve.csv").string()},
+                     "a");
   const double miss = s["targets"][0]["training_miss"];
   ASSERT_GT(std::abs(s["training"]["curve_miss"]["mean"].get<double>() - miss), 1e-3 * miss)
       << "the packings agree: nothing is tested";
@@ -356,7 +362,7 @@ TEST_F(CalibrateApp, what_is_out_of_reach_is_told_with_the_nearest) {
   ASSERT_EQ(s["at_bounds"].size(), 1u);
   ASSERT_EQ(s["targets_missed"].size(), 1u);
   const std::string gap = s["targets_missed"][0].get<std::string>();
-  EXPECT_EQ(gap.rfind("Poisson's ratio: wanted 0.45, got 0.", 0), 0u) << gap;
+  EXPECT_EQ(gap.rfind("Poisson's ratio: target 0.45, calibrated 0.", 0), 0u) << gap;
   EXPECT_NE(gap.find(", off by -"), std::string::npos) << gap;
 }
 
@@ -377,90 +383,100 @@ TEST_F(CalibrateApp, a_target_missed_by_a_factor_is_told_as_one) {
   EXPECT_NE(gap.find("off by -75 % (a factor of 4), tolerance 2 %"), std::string::npos) << gap;
 }
 
-// Rows of trials.csv and packings that are believed on --resume are those that were written.
+// A run that is believed on --resume is one that was written so.
 TEST_F(CalibrateApp, a_resumed_one_makes_again_what_was_edited) {
   const std::vector<std::string> asked{"Calibrate/Seeds = 2", "Calibrate/Verification seeds = 0",
-                                       "Calibrate/Young modulus = 20 GPa"};
+                                       "Calibrate/Most trials = 1",
+                                       "Calibrate/Compressive strength = 40 MPa"};
   const auto whole = run(asked, "a");
-  const fs::path trials = folder / "a/trials.csv", packing = folder / "a/packing_5.csv";
-  const std::string rows = text_of(trials), spheres = text_of(packing);
-  EXPECT_EQ(run(asked, "a", true)["trials"], 0);
-  std::string edited = rows;
-  const auto at = edited.find_first_of("123456789", edited.find('\n') + 20);
-  edited[at] = edited[at] == '1' ? '2' : '1';
-  std::ofstream(trials, std::ios::binary) << edited;
-  edited = spheres;
-  edited[spheres.size() - 3] = edited[spheres.size() - 3] == '1' ? '2' : '1';
-  std::ofstream(packing, std::ios::binary) << edited;
+  EXPECT_EQ(whole["trials"], 4); // a run and a static solve on each packing
+  EXPECT_EQ(run(asked, "a", true)["trials"], 2);
+  std::ofstream(folder / "a/runs/trial_1_compressive_strength_pa_seed_5/scene.prm", std::ios::app)
+      << "# more\n";
   const auto again = run(asked, "a", true);
-  EXPECT_GT(again["trials"], 0);
+  EXPECT_EQ(again["trials"], 3);
   EXPECT_EQ(again["training"], whole["training"]);
-  const std::string log = text_of(folder / "a/run.log");
-  EXPECT_NE(log.find("trials.csv:2: has been changed since it was written: its trial is made again"),
+  EXPECT_NE(text_of(folder / "a/run.log").find("trial_1_compressive_strength_pa_seed_5: is made again"),
             std::string::npos);
-  EXPECT_EQ(text_of(trials).size(), rows.size());                                 // the other rows stay
-  std::ofstream(trials, std::ios::binary) << rows.substr(0, rows.find('\n') + 1); // no trial left
-  EXPECT_EQ(run(asked, "a", true)["training"], whole["training"]);
-  EXPECT_NE(text_of(folder / "a/run.log").find("packing_5.csv: is not as it was written: packed again"),
-            std::string::npos);
-  EXPECT_EQ(text_of(packing), spheres);
 }
 
 // Every kind of target on one packing, and one more that judges; what they are is measured, not met.
 TEST_F(CalibrateApp, every_kind_of_target_is_measured) {
   std::ofstream(folder / "curve.csv") << "strain_platen,stress_mpa\n0.001,15\n0.002,28\n0.003,30\n";
-  std::vector<std::string> asked{"Calibrate/Seeds = 1", "Calibrate/Verification seeds = 1",
-                                 "Calibrate/Most trials = 1", "Calibrate/Free = modulus, tensile strength",
-                                 "Scene/Seed = 7"};
-  const std::vector<std::vector<std::string>> targets{
-      {"Kind = young modulus", "Value = 20 GPa"},
-      {"Kind = poisson ratio", "Value = 0.2", "Weight = 0.5"},
-      {"Kind = strength", "Value = 40 MPa", "Platens = grease"},
-      {"Kind = strain at peak", "Value = 2.4 mm/m", "Tolerance = 0.1"},
-      {"Kind = tension", "Value = 4 MPa"},
-      {"Kind = splitting", "Value = 4 MPa", "Platens = 0.3"},
-      {"Kind = strength at pressure", "Value = 60 MPa", "Pressure = 4 MPa"},
-      {"Kind = gain by friction", "Value = 1.4", "Form = box", "Slenderness = 1"},
-      {"Kind = cube over prism", "Value = 1.3", "Slenderness = 2"},
-      {"Kind = slenderness", "Value = 1.15"},
-      {"Kind = secant ratio", "Value = 0.2"},
-      {"Kind = curve", "File = " + (folder / "curve.csv").string(), "Tolerance = 0.1"}};
+  std::vector<std::string> asked{"Calibrate/Seeds = 1",
+                                 "Calibrate/Verification seeds = 1",
+                                 "Calibrate/Most trials = 1",
+                                 "Calibrate/Free = modulus, tensile strength",
+                                 "Scene/Seed = 7",
+                                 "Calibrate/Curve 2 = " + (folder / "curve.csv").string()};
+  const std::string box =
+      "Specimen/Shape = box, Specimen/Radius =, Specimen/Width x = 16 mm, Specimen/Width y "
+      "= 16 mm, Specimen/Height = 16 mm, Loading/Axial rate = 0.03 m/s, Loading/Target strain = 0.05";
+  const std::vector<std::string> targets{
+      "young modulus: 20 GPa",
+      "poisson ratio: 0.2",
+      "strength_pa at Platens/Surface = grease: 40 MPa",
+      "strain_at_peak_platen: 2.4 mm/m +- 10 %",
+      "tension: 4 MPa",
+      "splitting at Platens/Friction static = 0.3: 4 MPa",
+      "strength_pa at Loading/Confinement = particles, Loading/Confining pressure = 4 MPa: 60 MPa",
+      "strength_pa at " + box + " over Platens/Friction static = 0: 1.4",
+      "poisson_ratio: 0.2",
+      "curve 2: +- 10 %"};
   for (std::size_t k = 0; k < targets.size(); ++k)
-    for (const std::string &entry : targets[k])
-      asked.push_back("Calibrate/Target " + std::to_string(k + 1) + "/" + entry);
+    asked.push_back("Calibrate/Target " + std::to_string(k + 1) + " = " + targets[k]);
   const auto s = run(asked, "a");
   ASSERT_EQ(s["targets"].size(), targets.size());
-  EXPECT_EQ(s["failed_trials"], 0);
+  EXPECT_EQ(s["failed_trials"], 0) << text_of(folder / "a/trials.csv");
   const auto number = [&](const char *key) { return s["training"][key]["mean"].get<double>(); };
   EXPECT_NEAR(number("youngs_modulus_gauge_pa"), 20e9, 0.001 * 20e9); // solves have met it before
   EXPECT_GT(number("compressive_strength_pa"), 5 * number("tensile_strength_pa"));
   EXPECT_GT(number("splitting_strength_pa"), 0.5 * number("tensile_strength_pa"));
-  // So small a disc is seated over half its width and bears more; platen-brazilian finds the same within 1 %.
+  // So small a disc is seated over half its width and bears more.
   EXPECT_LT(number("splitting_strength_pa"), 6 * number("tensile_strength_pa"));
   EXPECT_GT(number("triaxial_strength_pa"), number("compressive_strength_pa") + 1.5 * 4e6);
-  EXPECT_GT(number("gain_by_friction"), 1.1);
-  EXPECT_GT(number("cube_over_prism"), 1.02);
-  EXPECT_GT(number("strength_over_slender"), 1.02);
+  EXPECT_GT(number("strength_pa_ratio"), 1.1);
   EXPECT_GT(number("secant_poisson_ratio"), number("poisson_ratio")); // bonds have broken on the way
   EXPECT_LT(number("secant_poisson_ratio"), 1);
   EXPECT_GT(number("strain_at_peak_platen"), 5e-4);
   EXPECT_GT(number("curve_miss"), 0);
   EXPECT_LT(number("curve_miss"), 1);
-  EXPECT_EQ(s["verification"]["gain_by_friction"]["seeds"], 1);
+  EXPECT_EQ(s["verification"]["strength_pa_ratio"]["seeds"], 1);
   EXPECT_EQ(s["sensitivities"].size(), 2u);
   EXPECT_EQ(s["sensitivities"][0]["parameter"], "bond_modulus_pa");
   EXPECT_NEAR(s["sensitivities"][0]["youngs_modulus_gauge_pa"].get<double>(), 1, 1e-6);
   EXPECT_EQ(s["correlations"][1]["bond_tensile_strength_pa"], 1);
   EXPECT_FALSE(s["missed"].empty());
-  EXPECT_EQ(text_of(folder / "a/curve.csv").rfind("strain_platen,wanted_pa,calibrated_pa,unseen_pa\n", 0),
-            0u);
-  // The specimens of the other forms, and the same again from trials.csv.
-  for (const char *packing : {"packing_disc_7.csv", "packing_box_1_7.csv", "packing_box_2_8.csv"})
-    EXPECT_TRUE(fs::exists(folder / "a" / packing)) << packing;
   const std::string found = text_of(folder / "a/found.prm"), curve = text_of(folder / "a/curve.csv");
-  EXPECT_EQ(run(asked, "a", true)["trials"], 0);
+  EXPECT_EQ(curve.rfind("strain_platen,wanted_pa,calibrated_pa,unseen_pa\n", 0), 0u);
+  // The figures of a run are those of the run itself: platen-compress between greased platens.
+  const auto grease =
+      nlohmann::json::parse(text_of(folder / "a/runs/trial_1_compressive_strength_pa_seed_7/summary.json"));
+  EXPECT_EQ(grease["strength_pa"], number("compressive_strength_pa"));
+  // And the same again.
+  run(asked, "a", true);
   EXPECT_EQ(text_of(folder / "a/found.prm"), found);
   EXPECT_EQ(text_of(folder / "a/curve.csv"), curve);
+}
+
+// What nobody has foreseen: any number of the scene, by any number of summary.json.
+TEST_F(CalibrateApp, any_entry_is_tried_for_any_figure) {
+  const auto s = run({"Calibrate/Seeds = 1", "Calibrate/Verification seeds = 0", "Calibrate/Most trials = 2",
+                      "Calibrate/Target 1 = middle_damage at Loading/Target strain = 0.01: 0.5",
+                      "Calibrate/Parameter 1 = Contact/Damping: 0 ... 0.5", "Contact/Damping = 0.1"},
+                     "a");
+  const auto tried = [&](int trial) {
+    const fs::path run = folder / "a/runs" / ("trial_" + std::to_string(trial) + "_middle_damage_seed_4");
+    const Scene scene = read_scene((run / "scene.prm").string(), {}, program("compress"));
+    EXPECT_EQ(scene.loading.target_strain, 0.01);
+    return std::pair<double, double>(scene.contact.damping,
+                                     nlohmann::json::parse(text_of(run / "summary.json"))["middle_damage"]);
+  };
+  EXPECT_EQ(tried(1).first, 0.1);
+  EXPECT_GT(tried(2).first, 0.1); // away from the nearer bound: sensitivities are measured
+  const double found = s["found"]["Contact_Damping"], damage = s["training"]["middle_damage"]["mean"];
+  EXPECT_TRUE((tried(1) == std::pair{found, damage}) || (tried(2) == std::pair{found, damage}));
+  EXPECT_NE(text_of(folder / "a/trials.csv").find(",Contact_Damping,status,"), std::string::npos);
 }
 
 // From bonds that are off by a third to those that the targets were measured of.
@@ -508,17 +524,7 @@ TEST_F(CalibrateApp, faults_are_refused) {
   EXPECT_NE(fault({"Calibrate/Tensile strength = 3 MPa", "Calibrate/Compressive strength = 2 MPa"})
                 .find("is not below Calibrate/Compressive strength"),
             std::string::npos);
-  EXPECT_NE(
-      fault({"Calibrate/Compressive strength = 20 MPa", "Loading/Axial rate ="}).find("Loading/Axial rate"),
-      std::string::npos);
   EXPECT_NE(fault({"Calibrate/Mode = abacus", "Calibrate/Poisson ratio list = 0.2"}).find("is for beams"),
-            std::string::npos);
-  EXPECT_NE(fault({"Calibrate/Target 1/Kind = slenderness", "Calibrate/Target 1/Value = 1.15",
-                   "Calibrate/Target 1/Slenderness = 2"})
-                .find("Calibrate/Target 1/Slenderness = 2 is that of the specimen that it is compared with"),
-            std::string::npos);
-  EXPECT_NE(fault({"Calibrate/Target 1/Kind = secant ratio", "Calibrate/Target 1/Value = 0"})
-                .find("Calibrate/Target 1/Value"),
             std::string::npos);
   EXPECT_NE(fault({"Effects/Bond = none", "Calibrate/Mode = bounds"}).find("Effects/Bond"),
             std::string::npos);
@@ -528,11 +534,6 @@ TEST_F(CalibrateApp, faults_are_refused) {
   EXPECT_NE(fault({"Calibrate/Triaxial strength = 30 MPa", "Calibrate/Confining pressure = 2 MPa"})
                 .find("needs Calibrate/Compressive strength"),
             std::string::npos);
-  EXPECT_NE(fault({"Calibrate/Compressive strength = 20 MPa", "Calibrate/Triaxial strength = 30 MPa",
-                   "Calibrate/Confining pressure = 2 MPa", "Loading/Confinement = particles",
-                   "Loading/Confining pressure = 2 MPa"})
-                .find("Loading/Confinement"),
-            std::string::npos);
   EXPECT_NE(fault({"Calibrate/Tensile strength = 3 MPa", "Calibrate/Largest friction angle = 30 degree"})
                 .find("below the bond's own"),
             std::string::npos);
@@ -541,11 +542,22 @@ TEST_F(CalibrateApp, faults_are_refused) {
                 .find("needs a bond with a friction angle"),
             std::string::npos);
   EXPECT_EQ(fault({"Calibrate/Mode = bounds", "Loading/Axial rate ="}), "");
-  EXPECT_THROW(
-      run({"Calibrate/Target 1/Kind = curve", "Calibrate/Target 1/File = " + (folder / "case.prm").string()},
-          "a"),
-      InputError);
-  EXPECT_FALSE(fs::exists(folder / "a")); // before anything was written
+  // What only a test shows is refused before anything is written.
+  const std::string curve = "Calibrate/Curve 1 = " + (folder / "case.prm").string();
+  for (const std::vector<std::string> &entries : std::vector<std::vector<std::string>>{
+           {"Calibrate/Target 1 = curve 1", curve},
+           {"Calibrate/Compressive strength = 20 MPa", "Loading/Axial rate ="},
+           {"Calibrate/Target 1 = strength_pa at Loading/Confining pressure = 4 MPa: 50 MPa"},
+           {"Calibrate/Target 1 = strength_pa at Specimen/Hight = 4 mm: 50 MPa"}})
+    EXPECT_THROW(run(entries, "a"), InputError) << entries[0];
+  EXPECT_FALSE(fs::exists(folder / "a"));
+  // Tests with speeds of their own need no other.
+  CommandLine dry;
+  dry.scene = (folder / "case.prm").string(), dry.dry_run = true;
+  dry.overrides = {"Calibrate/Target 1 = strength_pa at Loading/Axial rate = 0.02 m/s: 50 MPa",
+                   "Calibrate/Tensile strength = 4 MPa", "Calibrate/Tension rate = 0.01 m/s",
+                   "Loading/Axial rate ="};
+  EXPECT_EQ(run_calibrate(dry, read(dry.overrides)), status_done);
 }
 
 } // namespace

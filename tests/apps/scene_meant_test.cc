@@ -70,12 +70,10 @@ TEST(MeantUnits, a_bare_number_that_no_test_has_is_refused_with_the_unit_that_wa
       {{"Calibrate/Young modulus = 25"},
        "Calibrate/Young modulus = 25" + pascal + "\"25 MPa\" or \"25 GPa\"?",
        "calibrate"},
-      {{"Calibrate/Target 1/Kind = strength", "Calibrate/Target 1/Value = 40"},
-       "Calibrate/Target 1/Value = 40" + pascal + "\"40 MPa\"?",
+      {{"Calibrate/Target 1 = strength_pa: 40"},
+       "Calibrate/Target 1 = strength_pa: 40" + pascal + "\"40 MPa\"?",
        "calibrate"},
-      {{"Calibrate/Target 1/Kind = young modulus", "Calibrate/Target 1/Value = 40"},
-       pascal + "\"40 MPa\" or \"40 GPa\"?",
-       "calibrate"}};
+      {{"Calibrate/Target 1 = young modulus: 40"}, pascal + "\"40 MPa\" or \"40 GPa\"?", "calibrate"}};
   for (const auto &one : cases) {
     const std::string message = message_of(one.entries, program(one.app));
     EXPECT_NE(message.find(one.says), std::string::npos) << message << "\n not: " << one.says;

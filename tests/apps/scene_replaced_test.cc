@@ -211,21 +211,6 @@ TEST_F(Replaced, a_pressure_of_nothing_is_a_test_without_a_cell) {
             "");
 }
 
-TEST_F(Replaced, targets_with_speeds_of_their_own_need_no_other) {
-  const apps::Program &calibrate = program("calibrate");
-  const std::vector<std::string> target{"Calibrate/Target 1/Kind = strength",
-                                        "Calibrate/Target 1/Value = 40 MPa"};
-  std::vector<std::string> own = target;
-  own.emplace_back("Calibrate/Target 1/Rate = 0.02 m/s");
-  EXPECT_NE(said(packed("Axial rate"), target, calibrate).find("Loading/Axial rate is not set"),
-            std::string::npos);
-  EXPECT_EQ(said(packed("Axial rate"), own, calibrate), "");
-  const std::vector<std::string> tension{"Calibrate/Tensile strength = 4 MPa",
-                                         "Calibrate/Tension rate = 0.01 m/s"};
-  EXPECT_EQ(said(packed("Axial rate"), tension, calibrate), "");
-  EXPECT_NE(said(packed("Axial rate"), {tension.front()}, calibrate), "");
-}
-
 TEST_F(Replaced, a_table_of_moduli_needs_no_other_modulus) {
   const std::vector<std::string> list{"Calibrate/Mode = abacus", "Calibrate/Modulus list = 20 GPa, 40 GPa"};
   EXPECT_EQ(said(packed("Modulus"), list, program("calibrate")), "");

@@ -64,7 +64,7 @@ def sizes(axes, radius):
     several = numpy.ptp(radius) > 0
     edges = 24 if several else [0.98 * radius[0] * MM, 1.02 * radius[0] * MM]
     axes.hist(radius * MM, edges, weights=numpy.full(len(radius), 100 / len(radius)))
-    axes.set(xlabel="Sphere radius (mm)" + ("" if several else ", one size"), ylabel="Share of the spheres (%)")
+    axes.set(xlabel="Sphere radius (mm)" + ("" if several else ", one size"), ylabel="Fraction of the spheres (%)")
 
 
 def coordination(axes, position, radius):
@@ -73,14 +73,14 @@ def coordination(axes, position, radius):
         of = neighbours(position, radius, gap * radius.mean())
         share = 100 * numpy.bincount(of) / len(of)
         axes.plot(range(len(share)), share, "o-", color=CYCLE[k], label=f"within a gap of {gap:g} mean radii: {of.mean():.2f} in the mean")
-    titled(axes, "Neighbours of a sphere", "Share of the spheres (%)")
+    titled(axes, "Neighbours of a sphere", "Fraction of the spheres (%)")
 
 
 def density(axes, height, share):
     """Filled share over the height (m)."""
     axes.plot(height * MM, share, color=BLUE, label="slices of about a mean radius")
     axes.axhline(share.mean(), color=GREY, ls="--", label=f"mean {share.mean():.3f}")
-    titled(axes, "Height above the bottom (mm)", "Share of the volume that is filled", 2)
+    titled(axes, "Height above the bottom (mm)", "Solid fraction", 2)
 
 
 def _pack(folder, summary, remarks):
@@ -96,10 +96,10 @@ def _pack(folder, summary, remarks):
         area = math.pi * of["radius_m"] ** 2 if shape[1] == "cylinder" else of["width_x_m"] * of["width_y_m"]
         slices = int(numpy.clip(round(of["height_m"] / radius.mean()), 8, 200))
         height, share = density_profile(position[:, 2], radius, of["height_m"], area, slices)
-        pictures.append(chart("density", "Share of each slice that spheres fill, from the bottom to the top. At flat walls it is smaller, "
-                              "and it goes up and down over a few spheres.", density, height=height, share=share))
+        pictures.append(chart("density", "Solid fraction of each slice, from the bottom to the top. At flat walls it is smaller, and it "
+                              "oscillates over a few spheres.", density, height=height, share=share))
     else:
-        remarks.append("density over the height is drawn of cylinders and boxes alone")
+        remarks.append("density over the height is drawn for cylinders and boxes only")
     if not summary:
         remarks.append("summary.json is not there: its figures are left out")
     numbers = [[key, digits(value)] for key, value in summary.items()
@@ -181,8 +181,8 @@ def _bar(folder, summary, remarks):
                 table_with(folder / "history.csv", "time_s", column)
                 draws.append(partial(oscillations, history=history, load=load, column=column, title=title, factor=factor,
                                      static=number_in(summary, f"{load}/static_by_hand")))
-        pictures += [chart("swings", "Motion of the free end after the load was removed. Dashed: its place under the load, by strength of "
-                           "materials.", *draws, margin=0.85)] if draws else []
+        pictures += [chart("swings", "Motion of the free end after the load was removed. Dashed: its position under the load, by strength "
+                           "of materials.", *draws, margin=0.85)] if draws else []
     else:
         remarks.append("history.csv is not there: no picture of how the bar oscillates")
     if not pictures:
@@ -244,16 +244,16 @@ def _section_of_targets(summary, remarks):
     rows, drawn, found = [], [], []
     for target in summary["targets"]:
         name, factor = _named(target["key"], target["wanted"])
-        target["value"], is_curve = target["wanted"] * factor, target.get("kind") == "curve"
+        target["value"], is_curve = target["wanted"] * factor, target["key"].startswith("curve_miss")
         target["spreads"] = spreads = [over_packings(target[key], factor) if key in target else Spread() for key, *_ in JUDGED]
         misses = [number_in(target, key + "_miss") if is_curve else math.nan for key, *_ in JUDGED]
         rows.append([name, "the curve" if is_curve else digits(target["value"]),
-                     *(of.words(".4g", 0) if math.isnan(miss) else f"off by {100 * miss:.4g} %" for of, miss in zip(spreads, misses)),
+                     *(of.words(".4g", 0) if math.isnan(miss) else f"error {100 * miss:.4g} %" for of, miss in zip(spreads, misses)),
                      f"{100 * number_in(target, 'tolerance'):.3g} %", "yes" if target.get("met", target["met_in_training"]) else "no"])
         drawn += [target] if target["wanted"] and any(math.isfinite(of.mean) for of in spreads) else []
     tables = [Table(["target", "value", *(name for _, name, _ in JUDGED), "tolerance", "met"], rows, "Targets and calibrated values",
-                    "In brackets: how many packings. +-: standard deviation; ...: range of fewer than five. A curve is off by the root "
-                    "mean square over its largest stress.")]
+                    "In brackets: how many packings. +-: standard deviation; ...: range of fewer than five. The error of a curve is the "
+                    "root mean square of its differences over the largest stress.")]
     for key, value in summary.get("found", {}).items():
         name, factor = _named(key, value or 0)
         found += [[name, digits(value, factor)]] if value is not None else []
