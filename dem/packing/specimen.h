@@ -103,9 +103,9 @@ struct SpecimenEnds {
 };
 
 // The seats of both ends. Ground: all spheres whose surface lies within end_layer mean radii of the plane, z
-// - R for the bottom, height - z - R for the top; the layer decides how many spheres carry the platen, and
-// below about one mean radius the few that remain are crushed (docs/theory.md). As packed: none. A sphere may
-// be seated on both ends. Throws std::invalid_argument unless end_layer is finite and not negative.
+// - R for the bottom, height - z - R for the top; the layer decides how many spheres carry the platen
+// (docs/glossary.md, End layer). As packed: none. A sphere may be seated on both ends.
+// Throws std::invalid_argument unless end_layer is finite and not negative.
 SpecimenEnds seat_ends(const Specimen &specimen, EndPreparation preparation, double end_layer);
 
 } // namespace platen::dem

@@ -6,6 +6,8 @@
 
     experiment = platen.Experiment("demo_dry", set={"Platens/Friction static": 0.1}, output="results/mine")
     experiment.run()
+
+    study = platen.Sweep("demo_dry", vary={"Platens/Friction static": [0, 0.1, 0.3]}).run()    # many runs
 """
 import importlib
 
@@ -13,7 +15,7 @@ from .errors import InputError, MissingError, NumericsError, OutputError, Platen
 
 # Loaded when asked for: numpy takes a tenth of a second, the compiled part half of one; results are read without the latter.
 _FROM = {**dict.fromkeys(("Frames", "Run", "Study", "Table", "read_table", "runs"), "results"),
-         **dict.fromkeys(("Experiment", "scenes", "version"), "experiment")}
+         **dict.fromkeys(("Experiment", "scenes", "version"), "experiment"), "Sweep": "sweep"}
 
 
 def __getattr__(name):
@@ -31,5 +33,5 @@ def __dir__():
     return sorted({*globals(), *_FROM})
 
 
-__all__ = ["Experiment", "Frames", "InputError", "MissingError", "NumericsError", "OutputError", "PlatenError", "Run", "Study", "Table",
-           "read_table", "runs", "scenes", "version"]
+__all__ = ["Experiment", "Frames", "InputError", "MissingError", "NumericsError", "OutputError", "PlatenError", "Run", "Study", "Sweep",
+           "Table", "read_table", "runs", "scenes", "version"]

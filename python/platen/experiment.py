@@ -1,17 +1,13 @@
 """Experiments that a script builds, runs and changes on the way."""
 import json
-import math
-import numbers
-import operator
 import os
 import threading
 from pathlib import Path
 
-import numpy
-
 from . import _core
 from .errors import InputError, path_text
 from .results import Run, Table
+from .values import assignments, flag, number, whole
 
 
 def version():
@@ -28,59 +24,6 @@ def _path_of(scene):
     """A file, or the name of a scene that came with Platen."""
     path = path_text(scene, "scene")
     return path if os.path.isfile(path) else os.fspath(scenes().get(path, path))
-
-
-def _value_text(entry, value):
-    """A value as a scene has it; on and off may be True and False."""
-    if isinstance(value, (bool, numpy.bool_)):
-        return "on" if value else "off"
-    if isinstance(value, numbers.Integral):
-        return str(int(value))
-    if isinstance(value, numbers.Real):
-        return repr(float(value))
-    if isinstance(value, (list, tuple, numpy.ndarray)):
-        return ", ".join(_value_text(entry, one) for one in numpy.atleast_1d(numpy.asarray(value, dtype=object)).tolist())
-    if not isinstance(value, (str, os.PathLike)):
-        raise InputError(f"{entry} = {value!r} is no value. Allowed: a number, a text, True, False, or a list of them", entry=entry)
-    text = os.fspath(value)
-    try:
-        text.encode()
-    except UnicodeEncodeError as error:
-        raise InputError(f"{entry} = {text!r} is no text: character {error.start + 1} is half of one", entry=entry) from None
-    return text
-
-
-def _assignments(entries):
-    """"Section/Key = value" of each entry of a dictionary."""
-    if entries is None:
-        return []
-    if not isinstance(entries, dict) or not all(isinstance(entry, str) for entry in entries):
-        raise InputError(f"{entries!r} are no entries. Allowed: a dictionary of values by \"Section/Key\"")
-    return [f"{_value_text('an entry', entry)} = {_value_text(entry, value)}" for entry, value in entries.items()]
-
-
-def _number(name, value, most=math.inf):
-    """A finite number from 0 to the most; None stays."""
-    if value is None:
-        return None
-    if isinstance(value, (bool, numpy.bool_)) or not isinstance(value, numbers.Real) or not math.isfinite(value) or not 0 <= value <= most:
-        raise InputError(f"{name} = {value!r}. Allowed: a number, {'>= 0' if most == math.inf else f'0 ... {most}'}")
-    return float(value)
-
-
-def _whole(name, value, least=0, most=math.inf):
-    """A whole number from the least to the most; None stays."""
-    if value is None:
-        return None
-    if isinstance(value, (bool, numpy.bool_)) or not isinstance(value, numbers.Integral) or not least <= value <= most:
-        raise InputError(f"{name} = {value!r}. Allowed: a whole number, {f'>= {least}' if most == math.inf else f'{least} ... {most}'}")
-    return operator.index(value)
-
-
-def _flag(name, value):
-    if not isinstance(value, (bool, numpy.bool_)):
-        raise InputError(f"{name} = {value!r}. Allowed: True, False")
-    return bool(value)
 
 
 class Experiment:
@@ -101,10 +44,10 @@ class Experiment:
     def __init__(self, scene, set=None, output="", threads=1, overwrite=False, disc=False, verbose=False):
         if threads is None:
             raise InputError("threads = None. Allowed: a whole number")
-        threads = _whole("threads", threads, 1, max(64, 4 * (os.cpu_count() or 1)))
+        threads = whole("threads", threads, 1, max(64, 4 * (os.cpu_count() or 1)))
         # Names of files in bytes: they need not be text.
-        self._core = _core.make(os.fsencode(_path_of(scene)), _assignments(set), os.fsencode(path_text(output, "output")), threads,
-                                _flag("disc", disc), _flag("overwrite", overwrite), _flag("verbose", verbose))
+        self._core = _core.make(os.fsencode(_path_of(scene)), assignments(set), os.fsencode(path_text(output, "output")), threads,
+                                flag("disc", disc), flag("overwrite", overwrite), flag("verbose", verbose))
         self._on_sample = None
         self.expected = None
         self._failures = {}  # of callbacks, by the thread that makes the pass
@@ -122,8 +65,8 @@ class Experiment:
         take turns, pass by pass: each one's limits hold for the one experiment that all of them advance."""
         if all(limit is None for limit in (strain, time, steps, samples)):
             raise InputError("advance() needs a limit: strain, time, steps or samples")
-        strain, time = _number("strain", strain, most=1), _number("time", time)
-        steps, samples = _whole("steps", steps), _whole("samples", samples)
+        strain, time = number("strain", strain, most=1), number("time", time)
+        steps, samples = whole("steps", steps), whole("samples", samples)
         core = self._core
         last_step = None if steps is None else core.steps + steps
         last_sample = None if samples is None else core.samples + samples
@@ -147,9 +90,9 @@ class Experiment:
         """Ends here: events, cracks, the last frame and summary.json are written. The platen.Run. Before its target the test has not
         measured what the scene expects: `expected` is None then, and `ended_by` in the summary is "script"."""
         if not self._core.ended:
-            whole = self._core.finished
+            finished = self._core.finished
             held = self._core.end()
-            self.expected = held if whole else None
+            self.expected = held if finished else None
         return Run(self.folder)
 
     def close(self):
@@ -175,7 +118,7 @@ class Experiment:
     def change(self, entries):
         """From the next step on: friction of platens and grains, Loading/Axial rate, Loading/Stop at residual, Output/Every,
         Output/Fields every, Checkpoint/Every. It is noted in run.log and summary.json. InputError for anything else."""
-        self._core.change(_assignments(entries))
+        self._core.change(assignments(entries))
 
     @property
     def on_sample(self):

@@ -248,7 +248,7 @@ class Run:
 
 class Study:
     """The folder of a platen-study: `table` (study.csv, a row a run), `costs` (costs.csv; None where it is not there), `summary`
-    (study.json), runs[name]. Files are read when they are asked for, and kept."""
+    (study.json), runs[name]; `rows` for pandas.DataFrame(study.rows). Files are read when they are asked for, and kept."""
 
     def __init__(self, folder):
         self.folder = Path(path_text(folder, "folder"))
@@ -258,6 +258,15 @@ class Study:
     @cached_property
     def table(self):
         return read_table(self.folder / "study.csv")
+
+    @cached_property
+    def rows(self):
+        """A dictionary a run: the columns of study.csv in SI. A varied entry that has no number ("on") has its word there, from
+        study.json."""
+        words = {case["name"]: dict(zip(self.summary["varied"], (text.partition(" = ")[2] for text in case["overrides"])))
+                 for case in self.summary.get("cases", []) if self.summary.get("kind") == "vary"}
+        return [{**row, **{column: word for column, word in words.get(row.get("case"), {}).items() if row[column] != row[column]}}
+                for row in self.table.records()]
 
     @cached_property
     def costs(self):

@@ -223,7 +223,7 @@ def click(view):
     """On what is in the middle of the picture; gives the number that is told and the numbers that the page holds for it."""
     view.window.drag(CANVAS, (0, 0), (0, 0))
     told = view.text("message")
-    found = re.match(r"sphere (\d+): radius ([\d.]+) mm, broken share of bonds ([\d.]+), displacement ([\d.e-]+) mm, "
+    found = re.match(r"sphere (\d+): radius ([\d.]+) mm, broken fraction of bonds ([\d.]+), displacement ([\d.e-]+) mm, "
                      r"outward displacement (-?[\d.e-]+) mm", told)
     check(found is not None, f"a click tells of a sphere: {told}")
     return found and [float(x) for x in found.groups()]

@@ -142,11 +142,11 @@ class Costs(WithRuns):
                                           "stage_seconds": {"motion": 2.0, "bonds": 9.0, "stable_step": 1.5, "bodies": 0.0}})
         found = curves.costs_of(run)
         self.assertEqual(found[:4], [("bonds", 9, True), ("setting up", 4, False), ("motion", 2, True), ("stable step", 1.5, True)])
-        self.assertEqual((found[4][0], sum(cost[1] for cost in found)), ("the rest", 20))
+        self.assertEqual((found[4][0], sum(cost[1] for cost in found)), ("other", 20))
 
     def test_the_machine_is_that_of_the_log(self):
         run = self.run_of({"z": [0, 1]}, {"threads": 2, "peak_memory_bytes": 190e6}, run_log="Platen\nmachine Difference Engine, 2 cores\n")
-        self.assertEqual(curves.machine_words(run), "2 threads; Difference Engine, 2 cores; 190 MB at most")
+        self.assertEqual(curves.machine_words(run), "2 threads; Difference Engine, 2 cores; 190 MB of memory at most")
         self.assertEqual((curves.pictures_of_costs(run), curves.machine_words(self.run_of({"z": [0, 1]}, name="none"))), ([], ""))
 
 
@@ -236,7 +236,7 @@ class Sides(WithRuns):
         points, left_out = comparison.biaxial_strengths(runs)
         self.assertEqual([(point.run, point.surface) for point in points], [("both", "brush"), ("bare", "brush"), ("across", "brush")])
         numpy.testing.assert_allclose([point[2:] for point in points], [(1.15, 1.15), (1, 0), (1.2, 0.5)])
-        reasons = ("other has no run beside it", "all is pressed along three axes", "unbroken has not failed")
+        reasons = ("other has no run with the same specimen", "all is pressed along three axes", "unbroken has not failed")
         for said, why in zip(left_out, reasons, strict=True):
             self.assertIn(why, said)
         self.assertEqual([picture.name for picture in comparison.pictures(runs)],

@@ -57,7 +57,7 @@ class Laboratory(InFolder):
         curve = self.expect(header + rows, 1e-3, 1e6)
         self.assertEqual(curve.remarks, ["core.csv: strain from 'strain (mm/m)' and stress from 'axial stress (MPa)'"])
         alike = self.read("strain 1 (%),strain 2 (%),Stress (MPa)\n" + "".join(f"{x},{x},{y}\n" for x, y in ROWS))
-        self.assertIn("columns that would do as well: strain 2 (%)", alike.remarks[1])
+        self.assertIn("other columns that fit: strain 2 (%)", alike.remarks[1])
 
     def test_compression_becomes_positive_and_an_offset_of_the_strain_goes_and_both_are_told(self):
         text = "Displacement (mm),Load (kN)\n" + "".join(f"{-x - 0.5},{-y}\n" for x, y in ROWS)

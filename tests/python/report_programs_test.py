@@ -69,7 +69,7 @@ class Packings(OfPrograms):
 
     def test_a_packing_without_a_summary_or_a_shape_says_so(self):
         made = self.page(None, **{"specimen.csv": self.SPHERES.partition("\n")[2]})
-        self.assertEqual(made.remarks, ["density over the height is drawn of cylinders and boxes alone",
+        self.assertEqual(made.remarks, ["density over the height is drawn for cylinders and boxes only",
                                         "summary.json is not there: its figures are left out"])
         (self.folder / "history.csv").touch()
         self.assertIsNone(programs.page_of(self.folder))
@@ -146,7 +146,7 @@ class Calibrations(OfPrograms):
         made = self.page(calibrated())
         targets, found = made.sections[0].tables
         self.assertEqual(targets.rows, [["compressive strength (MPa)", "43", "41 ... 43.2 (3)", "40 (1)", "5 %", "no"],
-                                        ["curve miss", "the curve", "off by 4.53 %", "-", "5 %", "yes"]])
+                                        ["curve miss", "the curve", "error 4.53 %", "-", "5 %", "yes"]])
         self.assertEqual(found.rows, [["bond modulus (GPa)", "48"], ["friction angle (degrees)", "30"]])
         self.assertEqual((made.title, made.remarks), ("Made-up bonds", ["not met together: gain by friction: 1.45 is out of reach"]))
         self.assertEqual(made.leads[0], "Not met: 1 target.")

@@ -301,7 +301,7 @@ class Target(OfStudies):
         made = self.page(target())
         table = made.sections[0].tables[0]
         self.assertEqual((table.header[2], table.rows[1]), ("strength (MPa)", ["18", "150", "42", "1.9", "1.5", "1.1", "0.1", "0.2"]))
-        self.assertEqual(made.remarks[0], "strength of slow loading: 42 MPa +- 1.9 % with 90 % confidence; 2 % were ordered: reached")
+        self.assertEqual(made.remarks[0], "strength of slow loading: 42 MPa +- 1.9 % with 90 % confidence; 2 % were required: reached")
         self.assertEqual(made.remarks[1], "150 s of one core; one slow speed would have taken 400 s (180 wave crossings, 6 packings)")
         self.assertEqual(made.remarks[3], "1 of 18 runs failed: no mean contains them")
 

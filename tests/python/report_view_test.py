@@ -163,7 +163,7 @@ class Sleeve(WithRun):
         pictures = specimen.pictures_of_sleeve(self.run_)
         self.assertEqual([p.name for p in pictures], ["sleeve", "sleeve_unrolled"])
         axes = house.figure_of(pictures[1]).axes[1]
-        self.assertEqual(axes.get_title(loc="left"), "at the end: stretch around (%)")
+        self.assertEqual(axes.get_title(loc="left"), "at the end: circumferential stretch (%)")
         faces = axes.collections[0]
         covered = sum(numpy.ptp(path.vertices[:, 0].clip(*axes.get_xlim())) * numpy.ptp(path.vertices[:, 1]) for path in faces.get_paths())
         self.assertAlmostEqual(covered / (2e3 * math.pi * made_up_run.RADIUS * 1e3 * made_up_run.HEIGHT), 1)

@@ -48,7 +48,7 @@ def biaxial_strengths(runs):
             continue
         reference = uniaxial.get(_kind(run))
         why = ("has not failed" if not _has_failed(run) else "is pressed along three axes" if s[2] >= FREE_SHARE * s[0] and not is_free else
-               "has no run beside it with the same specimen, the same platens and free sides" if reference is None else "")
+               "has no run with the same specimen, the same platens and free sides to compare with" if reference is None else "")
         if not why:
             word, mesh = run.entry("Platens/Surface"), run.entry("Platens/Top/Mesh file")
             surface = f"friction {run.entry('Platens/Friction static')}" if word in ("", "custom") else word
@@ -99,7 +99,7 @@ def pictures(runs):
         caption = ("Strength under pressure of the runs of one specimen and platens that failed, and Mohr's circles with the line of Mohr "
                    f"and Coulomb ({line.range_words}). The errors behind +- are standard errors.")
         if line.misses:
-            caption += " At some pressure the line misses the strength by more than 5 %: the curve of Hoek and Brown stands beside it."
+            caption += " At some pressure the line misses the strength by more than 5 %: the curve of Hoek and Brown is drawn too."
         made.append(chart("comparison_envelope", caption, strength_over_pressure, mohr, points=points, line=line, heights=[3.0, 3.8]))
     if any(point.second > 0 for point in strengths):
         equal = [point for point in strengths if point.second > 0.9 * point.first]  # how they stand to the published one
@@ -114,7 +114,7 @@ def page_of_runs(runs, measured=None):
     """The page of a run, or of a run beside others; measured: a laboratory.Curve."""
     run, several, (leads, head) = runs[0], len(runs) > 1, words.head(runs)
     remarks = [f"{run.name}: {remark}" if several else remark for run in runs for remark in run.remarks]
-    remarks += [f"{run.name}: no peak reached: the largest stress is no strength" for run in runs if run.peak_reached is False]
+    remarks += [f"{run.name}: no peak reached: the largest stress is not a strength" for run in runs if run.peak_reached is False]
     remarks += [*(measured.remarks if measured else []), *(biaxial_strengths(runs)[1] if several else [])]
     sections = [
         Section("Comparison", [*pictures(runs), *specimen.comparison(runs)] if several else []),

@@ -114,7 +114,7 @@ def density_map(axes, run):
     axes.grid(False)
     axes.xaxis.set_major_formatter(lambda x, _: f"{abs(x):g}")
     axes.set(xlabel=f"Distance from the {'plane x = 0' if extent.is_plane else 'axis'} (mm)", ylabel="Height (mm)")
-    colour_bar(axes, DAMAGE, norm, "Broken share of the bonds" if found.is_share else "Broken bonds per cm³")
+    colour_bar(axes, DAMAGE, norm, "Broken fraction of the bonds" if found.is_share else "Broken bonds per cm³")
 
 
 def scatter_of_rose(area, bins):
@@ -146,7 +146,7 @@ def pictures_of_cracks(run):
     extent, until = run.extent, run.pattern_words
     wide = min(5.5, 4.4 * 2 * extent.half_width / extent.height)
     found = _density(run)
-    white = f" White cells had fewer than {FEWEST} bonds before the test, too few for a share." if numpy.isnan(found.values).any() else ""
+    white = f" White cells had fewer than {FEWEST} bonds before the test: no fraction." if numpy.isnan(found.values).any() else ""
     pictures = [
         panels("cracks", f"Bonds broken until {until} as discs of their size, in the half specimen: in tension (left), in shear (right).",
                [partial(discs, run=run, which=which) for which in ("in tension", "in shear")], [extent], margin=0.06),
@@ -159,6 +159,6 @@ def pictures_of_cracks(run):
     if isinstance(run.info.get("crack_rose"), list) and run.info["crack_rose"][:1] not in ([], [None]):
         pictures.append(chart(
             "crack_rose", "The angle between the normal of a crack and the axis of the specimen, all of the run. Beyond the line there are "
-            "more cracks than if they faced all ways alike. At 90 degrees cracks run along the specimen: it splits. A bar that ends in the "
+            "more cracks than in random directions. At 90 degrees cracks run along the specimen: it splits. A bar that ends in the "
             "blue band (two standard deviations) may differ from the line by chance.", rose, run=run, heights=3, margin=1.9, titles=True))
     return pictures

@@ -151,10 +151,10 @@ def pictures_of_curves(run, laboratory=None):
     """The Pictures of the section "Stress and energy" that the files of a run allow. laboratory: a laboratory.Curve beside."""
     caption = "Stress over strain."
     if run.has("broken_tension"):
-        caption += " Broken bonds and volume stand below, over the strain between the platens."
+        caption += " Broken bonds and volume are drawn below, over the strain between the platens."
     if run.axis == 2 and run.has("axial_strain_gauge"):
-        caption += (" The strain between platens holds what the ends take up; the gauge measures the middle half. Lateral strains are "
-                    "negative where the specimen widens.")
+        caption += (" The strain between platens includes the deformation of the ends; the gauge measures the middle half. Lateral strains "
+                    "are negative where the specimen widens.")
     if run.has("volumetric_strain"):
         caption += " Where the volume begins to grow, cracks open."
     pictures = [stress_strain([run], "stress_strain", caption + " Dots: the peak. The largest strains are cut off.")]
@@ -163,7 +163,7 @@ def pictures_of_curves(run, laboratory=None):
                               "compares them.", measured.against_laboratory, run=run, curve=laboratory, heights=3.6))
     halves = [main for main in (True, False) if _terms(run, main)]
     if halves:
-        caption = "The energy balance: where the work of the platens went."
+        caption = "The energy balance: the parts of the work of the platens."
         if False in halves:
             caption += (" The lower chart has another scale: the small terms, and the residual, which is the error of the balance and "
                         "should stay near zero.")
@@ -179,7 +179,7 @@ def pictures_of_curves(run, laboratory=None):
                               cell_pressure, run=run, heights=[2.8, 2.0, 1.5], titles=True))
     if has_stress_path(run):
         pictures.append(chart("stress_path", "Stress path: mean stress and deviator of the stresses along x, y and z. A specimen whose "
-                              "sides are free follows the dashed line. Stress on the sides leads the path away from it. Dot: the peak.",
+                              "sides are free follows the dashed line. Stress on the sides moves the path away from it. Dot: the peak.",
                               draw_stress_path, runs=[run], heights=3.4))
     return pictures
 
@@ -327,7 +327,7 @@ def table_of_stages(run):
     """A row for each stage: what it asked, what ended it, and where."""
     confined, stress, (how, across), q = has_stress_path(run), run.stress * MPA, _across(run), stress_path(run)[1] * MPA
     said = {one.get("stage"): one for one in listed(run.info, "stages")}
-    header = ["stage", "asked", "until", "ended by", "at (ms)", "strain (mm/m)", f"{how} strain (mm/m)", "stress (MPa)",
+    header = ["stage", "prescribed", "until", "ended by", "at (ms)", "strain (mm/m)", f"{how} strain (mm/m)", "stress (MPa)",
               "largest stress (MPa)"]
     rows = []
     for number, first, last in stages_of(run):
@@ -347,8 +347,8 @@ def section_of_stages(run):
         draws.insert(1, (stages_across, 2.8))
     caption = "The test stage by stage."
     if count > 1:
-        caption = ("The test stage by stage, a colour for each. A later stage is drawn narrower: where it comes back on the path of an "
-                   "earlier one, both are seen. The numbers over the lowest chart are those of the stages.")
+        caption = ("The test stage by stage, a colour for each. A later stage is drawn narrower: where it returns on the path of an "
+                   "earlier one, both are visible. The numbers over the lowest chart are those of the stages.")
     if len(draws) > 2 and not around:
         caption += " The largest lateral strains are cut off."
     return Section("Stages", [chart("stages", caption, *(draw for draw, _ in draws), run=run, titles=True,
@@ -405,8 +405,8 @@ def pictures_of_events(run):
     """The Pictures of the section "Acoustic emission"; none where the run has no events with a magnitude."""
     if run.table("events") is None or "magnitude" not in run.events or not numpy.isfinite(run.events["magnitude"]).any():
         return []
-    caption = ("Cracks that are near in place and time are one event. The number of events falls with their magnitude. Where it follows a "
-               "power law, b is its slope (black line).")
+    caption = ("Cracks that are near in space and time count as one event. The number of events falls with their magnitude. Where it "
+               "follows a power law, b is its slope (black line).")
     for before, words in ((True, "before"), (False, "after")):
         if reason := power_law(run, before)[1]:
             caption += f" No b-value {words} the peak: {reason}."
@@ -423,17 +423,17 @@ def costs_of(run):
     found.append(("setting up", number_in(run.info, "setup_seconds"), False))
     found = sorted((cost for cost in found if cost[1] > 0), key=lambda cost: -cost[1])
     rest = number_in(run.info, "wall_seconds") - sum(cost[1] for cost in found)
-    return found + [("the rest", rest, False)] * (rest > 0)
+    return found + [("other", rest, False)] * (rest > 0)
 
 
 def machine_words(run):
-    """"6.91 million sphere steps a second; 1 thread; AMD EPYC, 2 cores; 201 MB at most"; what is not known is left out."""
+    """"6.91 million sphere steps a second; 1 thread; AMD EPYC, 2 cores; 201 MB of memory at most"; what is not known is left out."""
     rate, threads, memory = (number_in(run.info, key) for key in ("particle_steps_per_second", "threads", "peak_memory_bytes"))
     log = run.folder / "run.log"
     lines = log.read_text(encoding="utf-8", errors="replace").splitlines() if log.is_file() else []
     machine = next((line.removeprefix("machine ") for line in lines if line.startswith("machine ")), "")
     words = ((rate > 0, f"{rate * 1e-6:.2f} million sphere steps a second"), (threads > 0, f"{threads:.0f} thread{'s' * (threads != 1)}"),
-             (machine, machine), (memory > 0, f"{memory * 1e-6:.0f} MB at most"))
+             (machine, machine), (memory > 0, f"{memory * 1e-6:.0f} MB of memory at most"))
     return "; ".join(word for known, word in words if known)
 
 
@@ -441,7 +441,7 @@ def costs(axes, run):
     """Seconds of each part as bars."""
     names, seconds, of_steps = zip(*costs_of(run))
     whole = sum(seconds)
-    bars(axes, names, seconds, [f"{one:.3g} s   {100 * one / whole:.1f} %" for one in seconds], f"Wall clock (s), {whole:.4g} s together",
+    bars(axes, names, seconds, [f"{one:.3g} s   {100 * one / whole:.1f} %" for one in seconds], f"Wall time (s), {whole:.4g} s in total",
          [BLUE if part else GREY for part in of_steps])
     axes.set_xlim(0, 1.25 * max(seconds))
 
@@ -449,5 +449,5 @@ def costs(axes, run):
 def pictures_of_costs(run):
     """The Pictures of the section "Computing time"; none where the summary does not say it."""
     count, words = len(costs_of(run)), machine_words(run)
-    caption = "Where the computing time went. Blue: parts of the time steps; grey: what is not." + f" {words}." * bool(words)
+    caption = "Parts of the computing time. Blue: of the time steps; grey: outside them." + f" {words}." * bool(words)
     return [chart("seconds", caption, costs, run=run, heights=0.4 + 0.26 * count, margin=1.2)] if count else []

@@ -304,7 +304,7 @@ def picture_of_stress_flow(run):
     draws = [partial(stress_flow, run=run), partial(stress_flow, run=run, shear=True, beside=tall)]
     caption = (f"Stress in the plane y = {_FINENESS * radius:.2g} mm {near_peak(run, 'specimen')}: vertical stress, compression positive, "
                f"and the largest shear stress. Each value is an average over the spheres within {_REACH_IN_PICTURES * radius:.2g} mm. Each "
-               "colour scale holds 96 % of the values; smaller and larger ones have the colours of its ends. White: neither specimen nor "
+               "colour scale covers 96 % of the values; smaller and larger ones have the colours of its ends. White: neither specimen nor "
                "platen. Grey: rigid platens, which have no stress.")
     rows = [draws] if tall else [[draw] for draw in draws]
     return Picture("stress_flow", caption, rows, height, width, raster=True, bar=True, titles=True)

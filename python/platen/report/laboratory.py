@@ -203,21 +203,21 @@ def read(path, columns=None, area=None, height=None):
         if column.what in ("displacement", "load"):
             if not size or not size > 0:
                 raise InputError(f"{path}: {column.header.strip()!r} is a {column.what}: it needs the {words} of the specimen, which the "
-                                 "run does not say")
+                                 "run does not give")
             values[k] = values[k] / size
             taken[k] += f" over the {words} of " + unit.format(size * 1e3 ** (k + 1))
     strain, stress = values
     said = [" and ".join(taken)]
     if x.what == "displacement":
-        said.append("a strain from displacements holds what the testing machine takes up, if it was measured there")
+        said.append("a strain from displacements includes the deformation of the testing machine, if the displacement was measured there")
     if others:
-        said.append(f"columns that would do as well: {', '.join(others)}")
+        said.append(f"other columns that fit: {', '.join(others)}")
     if without:
         said.append(f"rows left out because a number is missing: {without}")
     peak = int(numpy.abs(stress).argmax())
     if stress[peak] < 0:
         stress = -stress
-        said.append("compression is negative in the stress of the file: its sign is turned")
+        said.append("compression is negative in the stress of the file: its sign is reversed")
     rise = strain[peak] - strain[0]
     if rise == 0:
         raise InputError(f"{path}: no strain between the first row and the largest stress")
@@ -226,7 +226,7 @@ def read(path, columns=None, area=None, height=None):
         strain = strain - strain[0]
     if rise < 0:
         strain = -strain
-        said.append("compression is negative in the strain of the file: its sign is turned")
+        said.append("compression is negative in the strain of the file: its sign is reversed")
     thin, mean, step = _thinned(strain, stress, peak)
     if len(thin) < len(strain):
         said.append(f"{len(strain)} rows are thinned to {len(thin)}: rows of one strain, and of strains that differ by less than "
@@ -282,7 +282,7 @@ def differences(run, curve):
         no_peak = run.peak_reached is False and factor != GPA
         rows.append([words, "no peak reached" if no_peak else digits(a * factor), digits(b * factor),
                      "-" if no_peak or not b else digits(100 * (a - b) / b)])
-    return Table(["figure", run.name, "laboratory", "difference (%)"], rows, "The run beside the laboratory",
+    return Table(["figure", run.name, "laboratory", "difference (%)"], rows, "The run and the laboratory",
                  "Young's modulus: secant between 10 and 40 % of the peak of each curve. Strain of the run: between the platens. "
                  "Difference: of the run from the laboratory." + (f" Not valid: {'; '.join(reasons)}." if reasons else ""))
 

@@ -5,10 +5,10 @@ import os
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 from . import page
 from ..errors import InputError, OutputError, PlatenError
+from ..programs import program
 
 DONE, BAD_INPUT, OUTPUT_FAILED = 0, 2, 4
 HELP = """Turns an output folder of a run, of a study, or of a calibration into pictures (PNG) and one HTML page, and compares several.
@@ -23,14 +23,14 @@ FLAG = {"action": "store_true"}
 OPTIONS = (
     ("-h,--help", FLAG, "Print this and exit"),
     ("-c,--compare", {"nargs": "+", "default": [], "metavar": "FOLDER"},
-     "Further output folders, drawn and tabled beside the first: runs, or studies"),
+     "Further output folders in the same charts and tables: runs, or studies"),
     ("-o,--output", {"metavar": "DIR"}, "Folder for pictures and page [FOLDER/pictures]"),
     ("--pictures", {"metavar": "FORMS", "default": ""}, "Further files of each chart: pdf, svg, or pdf,svg"),
-    ("--laboratory", {"metavar": "FILE"}, "A measured curve (CSV as a laboratory writes it), drawn beside the run's, with differences"),
-    ("--columns", {"metavar": "NAMES"}, "Columns of that file where its header does not say them: \"strain=A,stress=B\""),
+    ("--laboratory", {"metavar": "FILE"}, "A measured curve (CSV as a laboratory writes it), drawn with that of the run, with differences"),
+    ("--columns", {"metavar": "NAMES"}, "Columns of that file where its header does not name them: \"strain=A,stress=B\""),
     ("--fields", FLAG, "Also write stress, strain, displacement and damage of all frames on one grid: "
      "fields.pvd for ParaView, into FOLDER"),
-    ("--state", FLAG, "List what the newest checkpoint holds (names, units, sizes, least and largest number); draws nothing"),
+    ("--state", FLAG, "List the content of the newest checkpoint (names, units, sizes, least and largest number); draws nothing"),
     ("--state-diff", {"metavar": "FOLDER"}, "Report the first difference to the newest checkpoint of another output folder, and end with "
      "status 1 where there is one; draws nothing"),
     ("-q,--quiet", FLAG, "Print errors only"),
@@ -53,9 +53,8 @@ def help_text():
 
 
 def _platen(*arguments):
-    """The program of that name beside this one; its status."""
-    beside = Path(sys.argv[0]).resolve().parent / "platen"
-    return subprocess.run([str(beside) if beside.exists() else "platen", *arguments], check=False).returncode
+    """The exit status of `platen`, which prints."""
+    return subprocess.run([program("platen"), *arguments], check=False).returncode
 
 
 def _draw(options):

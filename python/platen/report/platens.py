@@ -129,7 +129,7 @@ def friction(axes, run, which="friction"):
     """Over time, with its standard error: the "share" of the contacts that slide; "friction" over pressing force, with the limits of
     the scene; or the mean "slip"."""
     k = ("share", "friction", "slip").index(which)
-    factor, title = ((1, "Share that slides"), (1, "Friction / pressure"), (1e6, "Slip (µm)"))[k]
+    factor, title = ((1, "Fraction that slides"), (1, "Friction / pressure"), (1e6, "Slip (µm)"))[k]
     time, most, limits = run.series("contacts").times * MS, 0, {}
     for side, states in _states(run).items():
         value, error = states[:, k].T * factor
@@ -297,7 +297,7 @@ def pictures_of_ends(run):
     found = [picture_of_stress_flow(run)] if has_stress(run) else []
     if has_friction(run):
         found.append(chart(
-            "friction", "Friction between specimen and platens over time. From the top: the share of the spheres at each platen that "
+            "friction", "Friction between specimen and platens over time. From the top: the fraction of the spheres at each platen that "
             "slide; friction over pressure, with the limits of the scene; the mean slip, weighted by pressure; the work of friction. A "
             "platen does not slide as a whole while its friction is below the limit. Shaded: one standard error by the scatter of the "
             "spheres.", *(partial(friction, which=which) for which in ("share", "friction", "slip")), friction_work, run=run,
@@ -308,7 +308,7 @@ def pictures_of_ends(run):
                            f"{of_spheres} in a step.", strip_loads, run=run, heights=3, titles=True))
     elif has_further_sides(run) or run.extent.form == "box":
         found.append(_faces("side_pressure", f"Pressure on each platen over the face of the specimen {near}, over the mean of that platen. "
-                            "A square has an edge of two spheres, so single spheres show. In dark squares little or nothing presses.",
+                            "A square has an edge of two spheres, so single spheres show. In dark squares the pressure is small or zero.",
                             face, run, bar=True))
     elif run.extent.form == "cylinder":
         found.append(chart(

@@ -1,4 +1,4 @@
-"""Studies whose result is an error: of accuracy (error over cost), of a target (an ordered accuracy)."""
+"""Studies whose result is an error: of accuracy (error over cost), of a target (a required accuracy)."""
 import math
 from functools import partial
 
@@ -62,7 +62,7 @@ def _table_of_prices(prices):
         rows.setdefault(f"{one['knob']}, {MEASURES.get(one['of'], one['of'])}", {})[one["within"]] = text
     return Table(["parameter, figure", *(f"{100 * bound:g} %" for bound in bounds)],
                  [[name, *(row.get(bound, "-") for bound in bounds)] for name, row in rows.items()],
-                 "Seconds of a run that an error costs (with which value)")
+                 "Seconds of a run for a given error (value of the parameter)")
 
 
 def section_of_accuracy(said):
@@ -92,7 +92,7 @@ def estimate(axes, looks, accuracy, title):
     axes.plot(seconds, mean, "o-", color=BLUE, label="estimate and interval")
     scatter_bars(axes, seconds, mean * numpy.exp(-half), mean * numpy.exp(half), BLUE)
     for sign in (-1, 1):
-        axes.axhline(mean[-1] * (1 + sign * accuracy), color=BLACK, ls="--", lw=1, label="ordered accuracy" if sign > 0 else None)
+        axes.axhline(mean[-1] * (1 + sign * accuracy), color=BLACK, ls="--", lw=1, label="required accuracy" if sign > 0 else None)
     axes.margins(0.08, 0.1)
     titled(axes, "Seconds of one core", title[0].upper() + title[1:], 2)
 
@@ -109,20 +109,20 @@ def section_of_target(said):
     _, seconds, mean, half, parts = looks[-1]
     title, slow = with_unit(figure, unit), number_in(costs, "one_slow_speed_core_seconds")
     remarks = [f"{figure} of slow loading: {f'{mean:.4g} {unit}'.strip()} +- {percent(half)} % with {100 * target['confidence']:g} % "
-               f"confidence; {percent(accuracy)} % were ordered: {target['verdict']}"]
+               f"confidence; {percent(accuracy)} % were required: {target['verdict']}"]
     if slow > 0:
         of = target["one_slow_speed"]
         remarks.append(f"{seconds:.0f} s of one core; one slow speed would have taken {slow:.0f} s ({number_in(of, 'wave_crossings'):.0f} "
                        f"wave crossings, {of['packings']} packings)")
     remarks.append(f"spheres 1.25 times as large change it by {100 * number_in(target['sphere_size'], 'change'):+.2g} %: a smaller error "
-                   "than that says nothing while the spheres have one size")
+                   "than that has no meaning while the spheres have one size")
     table = Table(["runs", "seconds", title, "+- (%)", *PARTS],
                   [[str(n), f"{at:.0f}", f"{value:.4g}", percent(width), *map(percent, of)] for n, at, value, width, of in looks],
                   "After each batch of runs", f"+-: half of the interval; after it its parts in %: {', '.join(PARTS.values())}.")
     pictures = [
-        chart("target", "The figure of slow loading and its interval after each batch of runs. Dashed: as accurate as was ordered.",
+        chart("target", "The figure of slow loading and its interval after each batch of runs. Dashed: the required accuracy.",
               estimate, looks=looks, accuracy=accuracy, title=title),
-        chart("target_parts", "Parts of half the interval at the end, in % of the figure. Their squares add up. Line: what was ordered.",
+        chart("target_parts", "Parts of half the interval at the end, in % of the figure. Their squares add up. Line: required accuracy.",
               bars, names=[*PARTS.values(), "all"], values=[100 * part for part in (*parts, half)],
               texts=[percent(part) + " %" for part in (*parts, half)], title="Half of the interval (%)",
               colours=[BLUE] * len(PARTS) + [BLACK], mark=100 * accuracy, heights=1.6, margin=1.6)]

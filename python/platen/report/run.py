@@ -21,8 +21,8 @@ _WHOLE = {"%": 0.01, "percent": 0.01, "degree": math.pi / 180, "deg": math.pi / 
 # What a page lacks where a file of a run is not there.
 _WITHOUT = {"summary.json": " (the run has not finished): its figures are left out", "cracks.csv": ": no pictures of broken bonds",
             "specimen.pvd": ": no pictures of the specimen", "platens.pvd": ": pictures are drawn without platens",
-            "bonds.pvd": ": crack density is given per volume, not as a share of the bonds",
-            "contacts.pvd": ": no pictures of what presses on the platens"}
+            "bonds.pvd": ": crack density is given per volume, not as a fraction of the bonds",
+            "contacts.pvd": ": no pictures of the contacts on the platens"}
 
 
 # ---- texts and numbers of scenes and summaries

@@ -19,8 +19,8 @@ from .spheres import DAMAGE, FACES, HALO, RUBBER, Scene, hexahedra, panels, seen
 FRAGMENTS = numpy.array([to_rgb(c) for c in ("#e1e1e1", GREEN, PURPLE, SKY, "#f0e442", VERMILION, "#8c564b", BLACK)])
 WITH_PLATENS = numpy.array([to_rgb(c) for c in ("#e1e1e1", BLUE, ORANGE)])
 SMALLEST = 30  # spheres of a fragment that has a colour
-_DAMAGE = "coloured by the broken share of the bonds of each sphere. Grey: no bond is broken."
-_FRAGMENTS = (f"Each colour is a fragment of {SMALLEST} or more spheres that intact bonds hold together; green is the largest. Grey: "
+_DAMAGE = "coloured by the broken fraction of the bonds of each sphere. Grey: no bond is broken."
+_FRAGMENTS = (f"Each colour is a fragment of {SMALLEST} or more spheres that intact bonds connect; green is the largest. Grey: "
               "smaller fragments.")
 FOOT = 0.48  # inches, of a colour bar below a panel
 
@@ -91,7 +91,7 @@ def outward_displacement(axes, run, time, title="", **more):
 
 def damage(axes, run, time, title="", **more):
     """The half by the broken share of the bonds of each sphere."""
-    field(axes, run, time, run.spheres(time).damage, "Broken share\nof the bonds", title, Normalize(0, 1), DAMAGE, **more)
+    field(axes, run, time, run.spheres(time).damage, "Broken fraction\nof the bonds", title, Normalize(0, 1), DAMAGE, **more)
 
 
 def fragments(axes, run, time, title="", **more):
@@ -190,8 +190,8 @@ def cones_caption(run):
             words = {end: cone.words if cone else "not measured" if cone is None else "none" for end, cone in both.items()}
             text += f" Cones at {when}, half-angles: on the top platen {words['top']}, on the bottom platen {words['bottom']}."
     return ("Half specimen, cut along the axes of the cones. Blue spheres have moved with the bottom platen since the peak, orange "
-            f"ones with the top platen.{text} Outlines: the cones fitted to these spheres, at the platen as wide as measured: r0 times the "
-            "radius of the specimen.")
+            f"ones with the top platen.{text} Outlines: the cones fitted to these spheres, with the measured radius at the platen: r0 "
+            "times that of the specimen.")
 
 
 def _with_cones(shown):
@@ -221,11 +221,11 @@ def pictures_of_specimen(run):
     aside = " The platen in front of it is not drawn." if has_further_sides(run) else ""
     return [
         *_row("specimen_outside", f"The specimen from outside, along y and a little from above; x points to the left.{aside} Colours: "
-              f"how far each sphere has moved. {scales}", displacement, moments, foot=FOOT, whole=True),
+              f"displacement of each sphere. {scales}", displacement, moments, foot=FOOT, whole=True),
         *_row("specimen_inside", f"The same specimen cut in half at y = 0. {scales}", displacement, moments, foot=FOOT),
-        *_row("outward_displacement", "Half specimen, coloured by how far each sphere has moved away from the "
-              f"{'plane x = 0' if run.extent.is_plane else 'axis'}. Cones stay dark; what they push aside is light. Inward displacement "
-              f"has the colour of 0. {scales}", outward_displacement, judged, foot=FOOT),
+        *_row("outward_displacement", "Half specimen, coloured by the displacement of each sphere away from the "
+              f"{'plane x = 0' if run.extent.is_plane else 'axis'}. Cones are dark; the material that they push aside is light. Inward "
+              f"displacement has the colour of 0. {scales}", outward_displacement, judged, foot=FOOT),
         *_row("damage", f"Half specimen, {_DAMAGE}", damage, judged, True),
         *_row("cones", cones_caption(run), cones, _with_cones(judged)),
         *_row("fragments", f"Half specimen. {_FRAGMENTS}", fragments, judged)]
@@ -238,8 +238,8 @@ def comparison(runs):
     judged = [(run, run.pattern_time, run.name + (" (at the end)" if run.fall_time is None else "")) for run in runs]
     values = [outward(run, run.spheres(time))[half(run.spheres(time))] * MM for run, time, _ in end]
     return [
-        *_row("comparison_displacement", "Half specimens at the end, coloured by outward displacement, all in one scale. What is dark has "
-              "hardly moved outwards. The largest 5 % have the last colour.", outward_displacement, end, True,
+        *_row("comparison_displacement", "Half specimens at the end, coloured by outward displacement, all in one scale. Dark: little "
+              "outward displacement. The largest 5 % have the last colour.", outward_displacement, end, True,
               norm=Normalize(0, top_of(numpy.concatenate([[], *values])) or 1)),
         *_row("comparison_damage", f"Half specimens at the fall to 0.8 of the peak, {_DAMAGE}", damage, judged, True),
         *_row("comparison_cones", "Half specimens at the fall to 0.8 of the peak. Blue spheres have moved with the bottom platen since the "
@@ -313,7 +313,7 @@ def unrolled(axes, run, time, title, which, factor, left=True):
     shown = (places[:, :, 0].max(1) > -round_ / 2) & (places[:, :, 0].min(1) < round_ / 2)
     axes.add_collection(PolyCollection(places[shown], array=numpy.tile(values, 3)[shown], cmap=VIRIDIS, norm=norm, edgecolors="face",
                                        lw=0.3, rasterized=True))
-    axes.set(xlim=(-round_ / 2, round_ / 2), ylim=(z.min() * MM, z.max() * MM), xlabel="Around (mm)")
+    axes.set(xlim=(-round_ / 2, round_ / 2), ylim=(z.min() * MM, z.max() * MM), xlabel="Circumference (mm)")
     axes.set_ylabel("z (mm)" if left else "", labelpad=1)
     axes.tick_params(labelleft=left)
     axes.set_title(title, loc="left")
@@ -331,12 +331,12 @@ def pictures_of_sleeve(run):
     later = [(run.peak_time, "near the peak"), (run.end_time, "at the end")]
     rows = [[partial(unrolled, run=run, time=time, title=f"{when}: {words}", which=which, factor=factor, left=k == 0)
              for k, (time, when) in enumerate(later)]
-            for which, factor, words in ((0, 100, "stretch around (%)"), (2, MPA, "pressure of the spheres (MPa)"),
+            for which, factor, words in ((0, 100, "circumferential stretch (%)"), (2, MPA, "pressure of the spheres (MPa)"),
                                          (3, MM, "slip of the spheres (mm)"))]
     return [
         *_row("sleeve", "Half of the specimen in its sleeve (brown), as they are deformed. Spheres are coloured by outward displacement: "
               "where the sleeve bulges, the specimen fails. Each panel has its own scale. The largest 5 % have the last colour.",
               outward_displacement, [(run, time, words) for time, words in (zero, *later)], foot=FOOT, sleeve=True),
-        Picture("sleeve_unrolled", "The inner face of the sleeve, unrolled: how much it is stretched around, the pressure of the spheres "
-                "on it (in gaps between spheres the pressure of the cell acts on the sleeve alone), and how far spheres have slid "
+        Picture("sleeve_unrolled", "The inner face of the sleeve, unrolled: its circumferential stretch, the pressure of the spheres "
+                "on it (in gaps between spheres the pressure of the cell acts on the sleeve alone), and the slip of the spheres "
                 "along it. Each panel has its own scale; the outer 2 % have the last colours.", rows, 1.5, titles=True, bar=True)]

@@ -212,7 +212,7 @@ def _pictures_of_platens(studies, number="", which=""):
         draws = [partial(over, studies=studies, x=x, key="strength_pa")]
         if any(one["effect"] == effect and not one.get("reason") for study in studies for one in study.ratios):
             draws.append(partial(over, studies=studies, x=x, key=effect, named=False))
-            caption += " Colours as above. Bars of a laboratory: its range; its symbols stand a little to the right of their place."
+            caption += " Colours as above. Bars of a laboratory: its range; its symbols are drawn a little to the right of their value."
         pictures.append(chart(name + number, f"{caption} {BARS}" + (f" Here: {which}." if which else ""), *draws, heights=3.0, shared=True))
     return pictures
 
@@ -234,7 +234,7 @@ def tables_of_cases(study, title=""):
     rows = [[case.name, *([case.surface] if platens else []), *(digits(case.labels.get(key)) for key in study.columns),
              str(case.runs) if case.packings == case.runs else f"{case.packings} of {case.runs}",
              ("> " if case.without_peak else "") + case.figures["strength_pa"].words(".1f", case.packings)] for case in cases]
-    bore = " >: packings without a peak are among them, whose strength is larger." if any(case.without_peak for case in cases) else ""
+    bore = " >: some packings reached no peak; their strength is larger." if any(case.without_peak for case in cases) else ""
     keys = [key for key in FIGURES if key != "strength_pa" and any(math.isfinite(case.figures[key].mean) for case in cases)]
     if keys:
         figures = [[study.words(case), *(case.figures[key].words(f".{FIGURES[key][3]}f", case.packings) for key in keys)] for case in cases]
@@ -372,7 +372,7 @@ def page_of(folder, *others):
     if lost and not others:
         return None
     if lost:
-        raise InputError(f"--compare: {lost[0]} holds no study, {folder} does. Allowed: studies beside a study, runs beside a run")
+        raise InputError(f"--compare: {lost[0]} holds no study, {folder} does. Allowed: studies with a study, runs with a run")
     studies = [Studied(one) for one in folders]
     kind, study = studies[0].kind, studies[0]
     for other in studies if others else []:

@@ -147,7 +147,7 @@ def table_of_expectations(all_results):
     for results in all_results:
         name, info, status = _name(results, all_results), results.info, results.info.get("status", "done")
         signs = "; ".join(map(str, listed(info, "signs_of_haste", (dict, str))))
-        doubts += [[name + "status", "done", status, "incomplete: figures are of what ran"]] if status != "done" else []
+        doubts += [[name + "status", "done", status, "incomplete: figures are of the part that ran"]] if status != "done" else []
         doubts += [[name + "quasi-static", "yes", "no", signs]] if signs else []
         doubts += [[name + "target", "-", "-", f"not met: {target}"] for target in listed(info, "targets_missed", str)]
         for one in listed(info, "expectations"):

@@ -309,7 +309,7 @@ void main() {
   const said = (quantity, v) => (quantity === 'damage' ? v.toFixed(2)
     : quantity === 'piece' ? (v === 255 ? 'loose' : v === 0 ? 'largest' : String(v + 1)) : (1e3 * v).toPrecision(3)) + units[quantity];
   const legend = root.querySelector('.view-legend'), caption = root.querySelector('.view-caption');
-  const names = {damage: 'broken share of bonds', displacement: 'displacement', outward: 'outward displacement', piece: 'fragment'};
+  const names = {damage: 'broken fraction of bonds', displacement: 'displacement', outward: 'outward displacement', piece: 'fragment'};
   const describe = () => {
     const f = meta.frames[state.frame];
     caption.textContent = 'frame ' + (state.frame + 1) + ' of ' + F + ': ' + f.words;
