@@ -11,7 +11,7 @@
 
 #include "base/parallel.h"
 #include "coupling/program/program.h"
-#include "tests/coupling/small_cylinder.h"
+#include "tests/coupling/set_ups.h"
 
 namespace platen::coupling {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "coupling/platen_test.h"
-#include "tests/coupling/small_cylinder.h"
+#include "tests/coupling/set_ups.h"
 #include "tests/measured.h"
 
 namespace platen::coupling {
@@ -15,18 +15,12 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 PlatenTestSettings pressed() {
-  PlatenTestSettings s;
-  s.model.bond_layout.modulus = 36e9;
-  s.model.bond_layout.gap.value = 0.05;
+  PlatenTestSettings s = crushing();
   s.model.bond = dem::ParallelBond::Parameters{0.4, 2e9, 6e9, 0.7853981633974483, 0.3};
-  s.model.contact = dem::ContactSettings{};
-  s.model.contact->friction = s.model.contact->damping = 0;
+  s.model.contact->friction = 0;
   s.model.local_damping = 0;
-  s.ends = Ends::ground;
-  s.end_layer = 0.5;
-  s.platens.top = s.platens.bottom = {0.3, 0.2};
-  s.platens.thickness = 2e-3;
   s.loading.rate = 0.3;
+  s.loading.ramp = PlatenTestSettings{}.loading.ramp;
   return s;
 }
 

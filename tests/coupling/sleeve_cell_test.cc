@@ -11,16 +11,11 @@
 #include "coupling/platen_test.h"
 #include "dem/measure/gauge.h"
 #include "dem/packing/growth.h"
-#include "tests/coupling/elastic_problem.h"
+#include "tests/coupling/set_ups.h"
 #include "tests/same_state.h"
 
 namespace platen::coupling {
 namespace {
-
-const dem::Specimen &cylinder() {
-  static const dem::Specimen s = dem::random_close_packing(dem::cylinder(11e-3, 26e-3), 1.3e-3, 0.25, 7);
-  return s;
-}
 
 SleeveSettings butyl(bool bonded) {
   SleeveSettings s;
@@ -56,14 +51,14 @@ Answer run(PlatenTest &problem) {
   while (problem.axial_closure() < 4e-4)
     problem.advance(16);
   const dem::GaugeStrain now = gauge.strain(problem.model.particles);
-  a.axial = 0.5 * (problem.stress_top() + problem.stress_bottom()) - problem.confining_pressure();
+  a.axial = mean_stress(problem) - problem.confining_pressure();
   a.gauge_axial = now.axial - a.strain.axial;
   a.gauge_lateral = now.lateral() - a.strain.lateral();
   return a;
 }
 
 TEST(sleeve_cell, a_soft_sleeve_is_as_good_as_a_pressure_on_the_skin) {
-  PlatenTest oil(cylinder(), in_cell(10e6, true)), skin(cylinder(), in_cell(10e6, false));
+  PlatenTest oil(packed_cylinder(), in_cell(10e6, true)), skin(packed_cylinder(), in_cell(10e6, false));
   const Answer a = run(oil), b = run(skin);
   EXPECT_EQ(oil.confining_pressure(), 10e6);
   EXPECT_EQ(oil.sleeve()->cuts(), 0);
@@ -78,7 +73,7 @@ TEST(sleeve_cell, a_soft_sleeve_is_as_good_as_a_pressure_on_the_skin) {
 
 TEST(sleeve_cell, the_energy_balance_of_sleeve_cell_and_specimen_closes) {
   for (const bool bonded : {true, false}) {
-    PlatenTest problem(cylinder(), in_cell(10e6, true, bonded));
+    PlatenTest problem(packed_cylinder(), in_cell(10e6, true, bonded));
     run(problem);
     const dem::EnergyLedger e = problem.energy();
     EXPECT_GT(problem.sleeve()->solid().pressure_work(), 0.2 * e.boundary);
@@ -89,11 +84,11 @@ TEST(sleeve_cell, the_energy_balance_of_sleeve_cell_and_specimen_closes) {
 
 // The platens follow the rising pressure, and have reached it within 1 % when their own stage begins.
 TEST(sleeve_cell, the_platens_keep_up_with_the_pressure) {
-  PlatenTest problem(cylinder(), in_cell(10e6, true));
+  PlatenTest problem(packed_cylinder(), in_cell(10e6, true));
   double largest = 0, stress = 0;
   while (!problem.axial_stage()) {
     problem.advance(1);
-    stress = 0.5 * (problem.stress_top() + problem.stress_bottom());
+    stress = mean_stress(problem);
     largest = std::max(largest, stress);
   }
   EXPECT_NEAR(stress / 10e6, 1, 0.01);
@@ -102,17 +97,16 @@ TEST(sleeve_cell, the_platens_keep_up_with_the_pressure) {
 
 // A slow servo gets a longer ramp, and does as well.
 TEST(sleeve_cell, slow_and_quick_servos_keep_up_with_the_pressure) {
-  const dem::Specimen small = dem::random_close_packing(dem::cylinder(6e-3, 12e-3), 1.3e-3, 0.25, 7);
   for (const double gain : {0.1, 1.0, 10.0}) {
     PlatenTestSettings settings = in_cell(4e6, false);
     settings.loading.servo_gain = gain;
     for (PlatenSide *end : {&settings.platens.top, &settings.platens.bottom})
       end->friction_static = end->friction_dynamic = 0.5; // or it slides off in time
-    PlatenTest problem(small, settings);
+    PlatenTest problem(coarse_cylinder(), settings);
     double largest = 0, stress = 0;
     while (!problem.axial_stage()) {
       problem.advance(1);
-      stress = 0.5 * (problem.stress_top() + problem.stress_bottom());
+      stress = mean_stress(problem);
       largest = std::max(largest, stress);
     }
     EXPECT_NEAR(stress / 4e6, 1, 0.01) << gain;
@@ -127,13 +121,13 @@ TEST(sleeve_cell, a_stress_path_is_followed) {
     for (const double path : {-1.0 / 3, 0.5}) {
       PlatenTestSettings settings = in_cell(10e6, sleeve);
       settings.loading.cell->path = path;
-      PlatenTest problem(cylinder(), settings);
+      PlatenTest problem(packed_cylinder(), settings);
       while (!problem.axial_stage())
         problem.advance(16);
       double worst = 0, last = 0;
       while (problem.axial_closure() < 6e-4) {
         problem.advance(16);
-        last = 0.5 * (problem.stress_top() + problem.stress_bottom()) - problem.confining_pressure();
+        last = mean_stress(problem) - problem.confining_pressure();
         worst = std::max(worst, std::abs(problem.confining_pressure() - 10e6 - path * last));
       }
       EXPECT_GT(last, 8e6) << path;
@@ -144,7 +138,7 @@ TEST(sleeve_cell, a_stress_path_is_followed) {
 }
 
 TEST(sleeve_cell, its_rims_stay_with_the_platens) {
-  PlatenTest problem(cylinder(), in_cell(5e6, true, true));
+  PlatenTest problem(packed_cylinder(), in_cell(5e6, true, true));
   run(problem);
   const fem::HyperelasticSolid &solid = problem.sleeve()->solid();
   for (const bool top : {true, false}) {
@@ -164,7 +158,7 @@ TEST(sleeve_cell, its_rims_stay_with_the_platens) {
 TEST(sleeve_cell, loads_of_every_step_are_there_for_who_asks) {
   PlatenTestSettings settings = in_cell(10e6, true, true);
   settings.loading.cell->sleeve->contact.friction_static = 0.5; // so that its rims bear some of the load
-  PlatenTest problem(cylinder(), settings);
+  PlatenTest problem(packed_cylinder(), settings);
   while (!problem.axial_stage())
     problem.advance(16);
   const Sleeve &sleeve = *problem.sleeve();
@@ -197,16 +191,6 @@ TEST(sleeve_cell, loads_of_every_step_are_there_for_who_asks) {
   }
   for (const int steps : within)
     EXPECT_GT(steps, 5);
-}
-
-TEST(sleeve_cell, threads_change_no_bit) {
-  const auto state = [](int threads) {
-    const ThreadLimit limit(threads);
-    PlatenTest problem(cylinder(), in_cell(5e6, true));
-    problem.advance(300);
-    return state_of(problem);
-  };
-  EXPECT_TRUE(same_state(state(1), state(2)));
 }
 
 } // namespace

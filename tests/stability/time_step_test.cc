@@ -11,8 +11,7 @@
 #include "base/state.h"
 #include "coupling/platen_test.h"
 #include "dem/packing/advancing_front.h"
-#include "tests/coupling/elastic_problem.h"
-#include "tests/coupling/small_cylinder.h"
+#include "tests/coupling/set_ups.h"
 #include "tests/measured.h"
 
 namespace platen::coupling {
