@@ -11,6 +11,7 @@
 #include "coupling/contact/faces.h"
 #include "coupling/contact/surface_search.h"
 #include "sphere_scene.h"
+#include "tests/instruction_sets.h"
 
 namespace platen::coupling {
 namespace {
@@ -84,10 +85,7 @@ TEST_F(FlatFeet, have_the_bits_of_single_ones_in_packs) {
     turned_round[centres.size() - 1 - k] = corners[k] + centres[k];
   }
   int feet = 0, none = 0;
-  for (const auto &[set, name] : {std::pair{dem::InstructionSet::baseline, "baseline"},
-                                  {dem::InstructionSet::avx2, "avx2"},
-                                  {dem::InstructionSet::avx512, "avx512"}}) {
-    if (set > dem::best_instruction_set()) continue;
+  for (const dem::InstructionSet set : dem::instruction_sets_here()) {
     for (std::size_t first = 0, many = 1; first < faces.size(); first += many, many = many % 32 + 1) {
       many = std::min(many, faces.size() - first);
       const FlatFace *face[SurfacePoints::most];
@@ -104,11 +102,12 @@ TEST_F(FlatFeet, have_the_bits_of_single_ones_in_packs) {
         FlatFoot alone;
         const bool expected = find_foot(
             faces[first + k], turned_round[static_cast<std::size_t>(at[k])] - corners[first + k], alone);
-        ASSERT_EQ((found >> k & 1u) != 0, expected) << name << ", face " << first + k << ", " << many;
+        ASSERT_EQ((found >> k & 1u) != 0, expected)
+            << dem::name(set) << ", face " << first + k << ", " << many;
         ++(expected ? feet : none);
         if (!expected) continue;
         ASSERT_TRUE(same_bits({points.u[k], points.v[k], points.distance[k]}, alone))
-            << name << ", face " << first + k;
+            << dem::name(set) << ", face " << first + k;
       }
     }
   }

@@ -31,10 +31,7 @@ TEST(loads, a_stress_loads_on_where_it_is_not_below_what_is_found) {
   const auto loads = [](double found, double value, double sense = compression) {
     Seen seen;
     seen.stress = found;
-    StressTask::Parameters p;
-    p.platens = top;
-    p.value = value;
-    p.servo = {10, 0.1};
+    const StressTask::Parameters p = stress_of(value);
     StressTask task(p);
     task.begin(seen, 0, {});
     return task.loads(sense);

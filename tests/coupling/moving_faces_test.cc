@@ -10,6 +10,7 @@
 
 #include "coupling/contact/surface_search.h"
 #include "sphere_scene.h"
+#include "tests/instruction_sets.h"
 
 namespace platen::coupling {
 namespace {
@@ -127,10 +128,7 @@ TEST(moving_faces, feet_in_packs_are_those_of_single_centres) {
   std::vector<Vector3> turned_round(centres.rbegin(), centres.rend());
   turned_round.emplace_back(); // to spare
   int feet = 0;
-  for (const auto &[set, name] : {std::pair{dem::InstructionSet::baseline, "baseline"},
-                                  {dem::InstructionSet::avx2, "avx2"},
-                                  {dem::InstructionSet::avx512, "avx512"}}) {
-    if (set > dem::best_instruction_set()) continue;
+  for (const dem::InstructionSet set : dem::instruction_sets_here()) {
     for (std::size_t first = 0, count = 1; first < faces.size(); first += count, count = count % 32 + 1) {
       count = std::min(count, faces.size() - first);
       const MovingFace *face[SurfacePoints::most];
@@ -144,15 +142,18 @@ TEST(moving_faces, feet_in_packs_are_those_of_single_centres) {
       for (std::size_t k = 0; k < count; ++k) {
         Foot alone;
         const bool expected = find_foot(faces[first + k], centres[first + k], alone);
-        ASSERT_EQ((found >> k & 1u) != 0, expected) << name << ", face " << first + k << ", " << count;
+        ASSERT_EQ((found >> k & 1u) != 0, expected)
+            << dem::name(set) << ", face " << first + k << ", " << count;
         if (!expected) continue;
         ++feet;
         const SurfacePoint p = points.at(k);
         const Foot packed{p.local.u, p.local.v, -p.local.point, p.along_u, p.along_v, p.normal};
-        ASSERT_EQ(bits_of(packed), bits_of(alone)) << name << ", face " << first + k;
-        ASSERT_EQ(p.local.weights, bilinear_weights(alone.u, alone.v)) << name << ", face " << first + k;
-        ASSERT_EQ(p.distance, dot(alone.out, alone.normal)) << name << ", face " << first + k;
-        ASSERT_EQ(p.local.distance_squared, norm_squared(alone.out)) << name << ", face " << first + k;
+        ASSERT_EQ(bits_of(packed), bits_of(alone)) << dem::name(set) << ", face " << first + k;
+        ASSERT_EQ(p.local.weights, bilinear_weights(alone.u, alone.v))
+            << dem::name(set) << ", face " << first + k;
+        ASSERT_EQ(p.distance, dot(alone.out, alone.normal)) << dem::name(set) << ", face " << first + k;
+        ASSERT_EQ(p.local.distance_squared, norm_squared(alone.out))
+            << dem::name(set) << ", face " << first + k;
       }
     }
   }
@@ -180,9 +181,7 @@ TEST(moving_faces, in_packs_are_those_of_single_ones) {
     return members;
   };
   int single = 0, none = 0;
-  for (const auto set :
-       {dem::InstructionSet::baseline, dem::InstructionSet::avx2, dem::InstructionSet::avx512}) {
-    if (set > dem::best_instruction_set()) continue;
+  for (const dem::InstructionSet set : dem::instruction_sets_here()) {
     std::vector<MovingFace> faces(corners.size());
     for (std::size_t first = 0, count = 1; first < number.size(); first += count, count = count % 32 + 1) {
       count = std::min(count, number.size() - first);

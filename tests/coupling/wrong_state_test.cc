@@ -139,34 +139,39 @@ bool may_be_nan(const std::string &name) {
                        "/unbalanced", "/break_time"}); // of a bond that holds
 }
 
-// The state with one number in place of that at `place` in the block.
-State with_number(const State &state, const std::string &block_name, std::size_t place, double value) {
-  const StoredBlock block = *state.find(block_name);
-  std::vector<char> bytes(block.rows * block.type.bytes_per_row());
-  state.read(block_name, bytes.data());
-  char *at = bytes.data() + place * block.type.bytes;
-  const auto put = [&](auto number) { std::memcpy(at, &number, sizeof number); };
-  if (block.type.kind == BlockType::Kind::floating)
-    put(value);
-  else if (block.type.bytes == 1)
-    put(static_cast<std::int8_t>(value));
-  else if (block.type.bytes == 4)
-    put(static_cast<std::int32_t>(value));
-  else
-    put(static_cast<std::int64_t>(value));
-  State other;
-  for (const std::string &name : state.names()) {
-    const StoredBlock one = *state.find(name);
-    std::vector<char> own(one.rows * one.type.bytes_per_row());
-    if (!own.empty()) state.read(name, own.data());
-    other.add(name, one.type, name == block_name ? bytes.data() : own.data(), one.rows);
+// A state with one number in place of that at `place` in the block.
+class WithNumber : public StateSource {
+public:
+  WithNumber(const State &of, const std::string &block, std::size_t place, double value)
+      : of_(of), block_(block), stored_(*of.find(block)), place_(place), value_(value) {}
+  std::vector<std::string> names() const override { return of_.names(); }
+  std::optional<StoredBlock> find(const std::string &name) const override { return of_.find(name); }
+  void read(const std::string &name, void *data) const override {
+    of_.read(name, data);
+    if (name != block_) return;
+    char *at = static_cast<char *>(data) + place_ * stored_.type.bytes;
+    const auto put = [&](auto number) { std::memcpy(at, &number, sizeof number); };
+    if (stored_.type.kind == BlockType::Kind::floating)
+      put(value_);
+    else if (stored_.type.bytes == 1)
+      put(static_cast<std::int8_t>(value_));
+    else if (stored_.type.bytes == 4)
+      put(static_cast<std::int32_t>(value_));
+    else
+      put(static_cast<std::int64_t>(value_));
   }
-  return other;
-}
 
-std::string told_of(PlatenTest &test, const State &state) {
+private:
+  const State &of_;
+  std::string block_;
+  StoredBlock stored_;
+  std::size_t place_;
+  double value_;
+};
+
+std::string told_of(PlatenTest &test, const StateSource &state) {
   try {
-    set_state(test, state);
+    read_parts(state, [&](Archive &archive) { archive.part("state", test); });
   } catch (const StateError &e) {
     return e.what();
   }
@@ -224,8 +229,7 @@ TEST(wrong_state, no_number_of_any_block_is_believed_that_cannot_be) {
       for (std::size_t k = 0; k < std::min<std::size_t>(block.type.numbers, 4); ++k)
         for (const double value : values) {
           SCOPED_TRACE(std::string(setup.name) + ": " + name + " = " + std::to_string(value));
-          const std::string why =
-              told_of(other, with_number(good, name, row * block.type.numbers + k, value));
+          const std::string why = told_of(other, WithNumber(good, name, row * block.type.numbers + k, value));
           const bool must = (floating && !std::isfinite(value) && !may_be_nan(name)) || std::isinf(value) ||
                             value == 1e300 || (is_row_number(name) && value != 0) ||
                             (is_positive(name) && value <= 0) ||
@@ -234,19 +238,15 @@ TEST(wrong_state, no_number_of_any_block_is_believed_that_cannot_be) {
           // A version is that of its part.
           const std::string by = ends_with(name, "/version") ? name.substr(0, name.rfind('/')) : name;
           EXPECT_TRUE(!must || why.find(by) != std::string::npos) << why;
-          if (why.empty()) {
-            ++taken;
-            make_steps(other);
-            ASSERT_EQ(told_of(other, good), "");
-          } else {
-            ++refused;
-            // Whether rubber is inside out is found when it is read.
-            if (why.find("inside out") != std::string::npos)
-              ASSERT_EQ(told_of(other, good), "");
-            else
-              ASSERT_TRUE(k > 0 || same_state(good, other));
-          }
+          ++(why.empty() ? taken : refused);
+          // Whether rubber is inside out is found when it is read.
+          const bool was_read = why.empty() || why.find("inside out") != std::string::npos;
+          if (!was_read) continue;
+          if (why.empty()) make_steps(other);
+          ASSERT_EQ(told_of(other, good), "");
         }
+      // Those that were refused have changed nothing since the last that was taken.
+      ASSERT_TRUE(same_state(good, other)) << setup.name << ": " << name;
     }
     // Whatever was tried in between.
     advance_to(run, setup.steps + 20), advance_to(other, setup.steps + 20);
@@ -266,7 +266,7 @@ TEST(wrong_state, rows_that_do_not_go_together_are_refused) {
   const State good = state_of(run);
   ASSERT_GT(run.model.broken_tension, 0);
   const auto told = [&](const std::string &name, std::size_t row, double value) {
-    return told_of(other, with_number(good, "state/" + name, row, value));
+    return told_of(other, WithNumber(good, "state/" + name, row, value));
   };
   const std::string bonds = "specimen/bonds/", contacts = "specimen/contacts/";
   const auto ints = [&](const std::string &name) { return rows_of<int>(good, "state/" + name); };
