@@ -22,10 +22,6 @@ void PrintTo(const Arrangement &s, std::ostream *out) {
   *out << s.name;
 }
 
-const dem::Specimen &thin_cylinder() {
-  static const dem::Specimen s = filled(dem::cylinder(4e-3, 9e-3), 5);
-  return s;
-}
 const dem::Specimen &thick_disc() {
   static const dem::Specimen s = filled(dem::disc(4e-3, 4e-3), 5);
   return s;

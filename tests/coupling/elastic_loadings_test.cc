@@ -40,6 +40,10 @@ void expect_stiff_is_rigid(const std::string &what, const dem::Specimen &specime
   EXPECT_NEAR(s[1] / s[2], 10, 1) << s[0] << " " << s[1] << " " << s[2];
 }
 
+TEST(elastic_loadings, stiff_platens_press_as_rigid_ones) {
+  expect_stiff_is_rigid("pressed", cylinder(), smooth(), 1500);
+}
+
 TEST(elastic_loadings, stiff_glued_platens_pull_as_rigid_ones) {
   expect_stiff_is_rigid("pulled", cylinder(), pulled(), 1500);
   PlatenTestSettings seated = pulled();

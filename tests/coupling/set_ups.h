@@ -32,6 +32,10 @@ inline const dem::Specimen &cylinder() {
   static const dem::Specimen s = small_cylinder();
   return s;
 }
+inline const dem::Specimen &thin_cylinder() {
+  static const dem::Specimen s = filled(dem::cylinder(4e-3, 9e-3), 5);
+  return s;
+}
 inline const dem::Specimen &block() {
   static const dem::Specimen s = filled(dem::box(12e-3, 12e-3, 14e-3), 3);
   return s;

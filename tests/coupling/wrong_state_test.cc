@@ -214,7 +214,7 @@ TEST(wrong_state, one_of_another_specimen_is_refused_with_both_sizes_and_changes
 TEST(wrong_state, no_number_of_any_block_is_believed_that_cannot_be) {
   std::size_t blocks = 0, refused = 0, taken = 0;
   for (const Kind &setup : kinds()) {
-    PlatenTest run(cylinder(), setup.settings()), other(cylinder(), setup.settings());
+    PlatenTest run(thin_cylinder(), setup.settings()), other(thin_cylinder(), setup.settings());
     advance_to(run, setup.steps);
     const State good = state_of(run);
     ASSERT_EQ(told_of(other, good), "") << setup.name;
