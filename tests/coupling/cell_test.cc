@@ -2,12 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 
 #include "coupling/platen_test.h"
 #include "coupling/static_press.h"
 #include "dem/measure/gauge.h"
-#include "dem/packing/growth.h"
 #include "tests/coupling/set_ups.h"
 
 namespace platen::coupling {

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "coupling/program/circumferential_task.h"
-#include "tests/same_state.h"
 
 namespace platen::coupling {
 namespace {

@@ -1,7 +1,6 @@
 // Contacts with faces in packs: the bits of the same contacts row by row, for every instruction set.
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <random>
 
 #include "sphere_scene.h"

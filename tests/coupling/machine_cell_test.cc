@@ -5,11 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.h"
-#include "coupling/boundaries/machine_spring.h"
-#include "dem/packing/growth.h"
 #include "tests/coupling/set_ups.h"
-#include "tests/same_state.h"
 
 namespace platen::coupling {
 namespace {

@@ -6,10 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "base/parallel.h"
-#include "coupling/boundaries/machine_spring.h"
 #include "tests/coupling/set_ups.h"
-#include "tests/same_state.h"
 
 namespace platen::coupling {
 namespace {

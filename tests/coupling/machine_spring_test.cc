@@ -1,5 +1,5 @@
-// A platen on the spring of its machine: oscillation and decay, its stable step, springs in series, what
-// falls by itself, and the energy balance of all of it.
+// A platen on the spring of its machine: oscillation and decay, its stable step, springs in series, and what
+// falls by itself.
 #include "coupling/boundaries/machine_spring.h"
 
 #include <gtest/gtest.h>
@@ -8,11 +8,9 @@
 #include <cmath>
 #include <limits>
 
-#include "base/parallel.h"
 #include "base/pi.h"
 #include "coupling/platen_test.h"
 #include "tests/coupling/set_ups.h"
-#include "tests/same_state.h"
 
 namespace platen::coupling {
 namespace {

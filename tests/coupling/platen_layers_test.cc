@@ -1,7 +1,6 @@
 // Platens of several layers: what they are made of, and that they yield as springs in series.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -10,7 +9,6 @@
 #include "coupling/platens_of_test.h"
 #include "fem/grids.h"
 #include "tests/coupling/set_ups.h"
-#include "tests/measured.h"
 #include "tests/same_state.h"
 
 namespace platen::coupling {

@@ -7,12 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.h"
 #include "coupling/program_of_test.h"
-#include "dem/packing/advancing_front.h"
 #include "fem/grids.h"
 #include "tests/coupling/set_ups.h"
-#include "tests/same_state.h"
 
 namespace platen::coupling {
 namespace {

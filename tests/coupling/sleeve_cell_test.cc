@@ -1,5 +1,5 @@
 // A cell whose oil presses on a rubber sleeve: the specimen feels what it feels under the same pressure on
-// its skin, the energy balance closes, and a stop changes no bit.
+// its skin, and the energy balance closes.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -7,10 +7,8 @@
 #include <sstream>
 #include <string>
 
-#include "base/parallel.h"
 #include "coupling/platen_test.h"
 #include "dem/measure/gauge.h"
-#include "dem/packing/growth.h"
 #include "tests/coupling/set_ups.h"
 #include "tests/same_state.h"
 

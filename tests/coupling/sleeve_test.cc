@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.h"
 #include "dem/model.h"
 #include "tests/coupling/set_ups.h"
 #include "tests/same_state.h"

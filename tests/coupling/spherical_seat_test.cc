@@ -5,11 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "base/parallel.h"
 #include "coupling/platen_test.h"
 #include "fem/rigid_body.h"
 #include "tests/coupling/set_ups.h"
-#include "tests/same_state.h"
 
 namespace platen::coupling {
 namespace {

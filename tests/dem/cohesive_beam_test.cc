@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 
-#include "base/parallel.h"
 #include "base/random.h"
 #include "tests/dem/dual.h"
 #include "tests/dem/examples.h"

@@ -12,7 +12,6 @@
 #include <set>
 
 #include "base/parallel.h"
-#include "dem/packing/advancing_front.h"
 #include "dem/packing/growth.h"
 #include "tests/dem/examples.h"
 #include "tests/same_state.h"

@@ -3,10 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <string>
 
-#include "base/parallel.h"
-#include "base/random.h"
 #include "tests/dem/one_bond.h"
 
 namespace platen::dem {
