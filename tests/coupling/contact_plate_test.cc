@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "sphere_scene.h"
@@ -259,7 +260,9 @@ TEST(contact_plate, a_sphere_may_move_up_to_its_radius_in_a_step_and_no_farther)
 }
 
 TEST(contact_plate, parameters_out_of_range_are_refused_by_name) {
-  const auto refusal = [](const SurfaceContact &contact) -> std::string {
+  const auto refusal = [](const std::function<void(SurfaceContact &)> &change) -> std::string {
+    SurfaceContact contact = frictional(0.3, 0.3);
+    change(contact);
     try {
       SphereScene scene(plate(0.01, 1), {{0, 0, 1}}, contact, false);
     } catch (const std::invalid_argument &e) {
@@ -267,24 +270,20 @@ TEST(contact_plate, parameters_out_of_range_are_refused_by_name) {
     }
     return "";
   };
-  SurfaceContact c = frictional(0.3, 0.3);
-  EXPECT_EQ(refusal(c), "");
-  c.particle_stiffness = std::nan("");
-  EXPECT_NE(refusal(c).find("particle stiffness"), std::string::npos);
-  c = frictional(-0.1, 0.3);
-  EXPECT_NE(refusal(c).find("static friction"), std::string::npos);
-  EXPECT_EQ(refusal(frictional(0.3, std::nan(""))), ""); // not given: the static one
-  EXPECT_EQ(frictional(0.3, std::nan("")).dynamic(), 0.3);
-  c = frictional(0.3, -0.1);
-  EXPECT_NE(refusal(c).find("dynamic friction"), std::string::npos);
-  c = frictional(0.3, 0.3), c.damping = -1;
-  EXPECT_NE(refusal(c).find("damping"), std::string::npos);
-  c = frictional(0.3, 0.3), c.skin = 0;
-  EXPECT_NE(refusal(c).find("skin"), std::string::npos);
-  c = frictional(0.3, 0.3), c.face_compliance.resize(1); // a box has six faces
-  EXPECT_NE(refusal(c).find("one entry per face"), std::string::npos);
-  c = frictional(0.3, 0.3), c.seat_modulus = 1e9; // spheres of this scene do not rotate
-  EXPECT_NE(refusal(c).find("rotate"), std::string::npos);
+  using C = SurfaceContact;
+  const double none = std::nan("");
+  const std::vector<std::pair<std::string, std::function<void(C &)>>> all{
+      {"particle stiffness", [&](C &c) { c.particle_stiffness = none; }},
+      {"static friction", [](C &c) { c.friction_static = -0.1; }},
+      {"dynamic friction", [](C &c) { c.friction_dynamic = -0.1; }},
+      {"damping", [](C &c) { c.damping = -1; }},
+      {"skin", [](C &c) { c.skin = 0; }},
+      {"one entry per face", [](C &c) { c.face_compliance.resize(1); }}, // a box has six faces
+      {"rotate", [](C &c) { c.seat_modulus = 1e9; }}};                   // spheres of this scene do not
+  for (const auto &[word, change] : all)
+    EXPECT_NE(refusal(change).find(word), std::string::npos) << word;
+  EXPECT_EQ(refusal([&](C &c) { c.friction_dynamic = none; }), ""); // not given: the static one
+  EXPECT_EQ(frictional(0.3, none).dynamic(), 0.3);
 }
 
 } // namespace

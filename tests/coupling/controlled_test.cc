@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "coupling/program/circumferential_task.h"
-#include "tests/same_state.h"
 
 namespace platen::coupling {
 namespace {
@@ -63,9 +62,7 @@ TEST(controlled, a_share_is_told_as_the_stress_that_it_asks) {
 TEST(controlled, a_pressure_is_the_one_that_acts) {
   const Controlled told{"pressure", "lateral", "Pa", Controlled::around, false, 3e6, 2.971e6};
   expect_told(PressureTask(to(3e6, 1e-3)), at(1, 0, 2.971e6), at(1, 0, 2.969e6), told);
-  Handover from;
-  from.asked.resize(3);
-  from.asked[lateral].pressure = 3e6;
+  Handover from = after_pressure(3e6);
   HoldPressureTask held(lateral);
   held.begin(Seen{}, 0, from);
   expect_told(held, at(1, 0, 2.971e6), at(1, 0, 2.969e6), told);
@@ -156,11 +153,8 @@ TEST(controlled, what_is_not_finite_is_not_met) {
 TEST(controlled, stages_are_found_by_the_time) {
   Seen seen;
   Stages stages = list_of(consolidation(4e6));
-  Tasks tasks;
-  tasks.push_back(std::make_unique<HoldPressureTask>(lateral));
-  StageEnd::Parameters end;
-  end.any = {until(Until::Reached::time, 1)};
-  stages.push_back(stage_of("compression", std::move(tasks), end));
+  stages.push_back(stage_of("compression", one_task(std::make_unique<HoldPressureTask>(lateral)),
+                            ends_at(Until::Reached::time, 1)));
   Program program(seen, std::move(stages));
   ask(program);
   EXPECT_EQ(program.stage_at(2e-3), 0u);

@@ -1,5 +1,6 @@
-// Elastic platens in every test there is: stiff ones are rigid ones, soft ones are in series.
-#include "tests/coupling/elastic_loadings.h"
+// Elastic platens in every test there is: stiff ones are rigid ones, soft ones are in series, force and
+// moment are those of the grains, and a stress is held.
+#include "tests/coupling/set_ups.h"
 
 #include <algorithm>
 #include <string>
@@ -37,6 +38,10 @@ void expect_stiff_is_rigid(const std::string &what, const dem::Specimen &specime
   measured::expect_below(32, "shortfall_at_a_thousand_times_steel_" + what, s[2], 1e-3);
   EXPECT_NEAR(s[0] / s[1], 10, 1) << s[0] << " " << s[1] << " " << s[2];
   EXPECT_NEAR(s[1] / s[2], 10, 1) << s[0] << " " << s[1] << " " << s[2];
+}
+
+TEST(elastic_loadings, stiff_platens_press_as_rigid_ones) {
+  expect_stiff_is_rigid("pressed", cylinder(), smooth(), 1500);
 }
 
 TEST(elastic_loadings, stiff_glued_platens_pull_as_rigid_ones) {
@@ -154,6 +159,77 @@ TEST(elastic_loadings, sheets_on_strips_are_in_series_with_the_bar) {
   EXPECT_GT(yielded[1], even);
   EXPECT_LT(yielded[1], 1.6 * even);
   EXPECT_LT(yielded[0] / force[0], 0.1 * yielded[1] / force[1]);
+}
+
+// What held grains get of force and moment is what platens get the other way: by the trapezoid exactly, as
+// velocity Verlet has it.
+TEST(elastic_loadings, force_and_moment_of_held_grains_are_those_on_the_platens) {
+  for (const ElasticMotion motion : both_motions) {
+    PlatenTestSettings s = elastic(pulled(), motion, 20e9);
+    s.seat = true;
+    s.platens.damping = 0.2;
+    PlatenTest test(cylinder(), s);
+    advance_to(test, 300);
+    const auto momenta = [&] {
+      const dem::Particles &p = test.model.particles;
+      std::array<Vector3, 2> sum{};
+      for (std::size_t i = 0; i < p.size(); ++i) {
+        const Vector3 momentum = p.mass[i] * p.velocity[i];
+        sum[0] += momentum;
+        const double inertia = 0.4 * p.mass[i] * p.radius[i] * p.radius[i];
+        sum[1] += cross(p.position[i], momentum) + inertia * (*p.angular_velocity)[i];
+      }
+      return sum;
+    };
+    const auto loads = [&] {
+      return std::array<Vector3, 2>{test.top().force() + test.bottom().force(),
+                                    test.top().body().moment({}) + test.bottom().body().moment({})};
+    };
+    const std::array<Vector3, 2> begun = momenta();
+    std::array<Vector3, 2> impulse{}, before = loads();
+    double passed = 0; // N m s, however they cancel
+    for (int k = 0; k < 300; ++k) {
+      test.step();
+      const std::array<Vector3, 2> now = loads();
+      for (std::size_t j = 0; j < 2; ++j)
+        impulse[j] += 0.5 * test.time_step() * (before[j] + now[j]);
+      passed += test.time_step() * std::abs(test.top().force()[2]);
+      before = now;
+    }
+    const std::array<Vector3, 2> ended = momenta();
+    const double arm = cylinder().shape.radius;
+    EXPECT_LT(norm(ended[0] - begun[0] + impulse[0]), 1e-9 * passed);
+    EXPECT_LT(norm(ended[1] - begun[1] + impulse[1]), 1e-9 * passed * arm);
+    EXPECT_GT(norm(impulse[1]), 1e-6 * passed * arm); // there is a moment to be missed
+    EXPECT_LT(residual(test), 5e-3) << static_cast<int>(motion);
+  }
+}
+
+// Against steel and on sheets a hundred times softer.
+TEST(elastic_loadings, a_servo_holds_its_stress_on_platens_that_yield) {
+  constexpr double asked = 5e6;
+  for (const ElasticMotion motion : both_motions)
+    for (const bool pad : {false, true}) {
+      PlatenTestSettings s = elastic(held_at(asked), motion, steel);
+      s.loading.ramp = 1e-4; // some twenty transits of a wave, and a hundred to stand
+      s.loading.hold = 5e-4;
+      if (pad) {
+        s.loading.hold = 1.5e-3; // the servo's dashpot has more to close
+        s.platens.elastic->pad_thickness = 1e-3;
+        s.platens.elastic->pad = {1200, 2e9, 0.3};
+      }
+      PlatenTest test(cylinder(), s);
+      const double held_from = test.ramp() + 0.8 * s.loading.hold;
+      double farthest = 0;
+      while (!test.program().finished() && test.steps() < 60000) {
+        advance_to(test, test.steps() + 1);
+        if (test.time() > held_from) farthest = std::max(farthest, std::abs(test.stress_top() / asked - 1));
+      }
+      EXPECT_TRUE(test.program().finished());
+      EXPECT_LT(farthest, 0.01) << static_cast<int>(motion) << pad;
+      EXPECT_LT(residual(test), 5e-3) << static_cast<int>(motion) << pad;
+      EXPECT_GT(clamp_closure(test), test.closure_strain() * test.shape().height);
+    }
 }
 
 } // namespace

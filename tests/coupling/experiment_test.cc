@@ -11,7 +11,8 @@
 
 #include "base/parallel.h"
 #include "coupling/program/program.h"
-#include "tests/coupling/small_cylinder.h"
+#include "tests/coupling/seen.h"
+#include "tests/coupling/set_ups.h"
 
 namespace platen::coupling {
 namespace {
@@ -87,25 +88,9 @@ private:
   int left_;
 };
 
-struct Nothing : Measures {
-  double time() const override { return 0; }
-  double time_step() const override { return 0; }
-  double closure_strain() const override { return 0; }
-  double closure_strain(int) const override { return 0; }
-  double circumferential_strain() const override { return 0; }
-  double axial_stress() const override { return 0; }
-  double lateral_pressure() const override { return 0; }
-  double broken_bonds() const override { return 0; }
-  Vector3 force(std::size_t) const override { return {}; }
-  double load(std::size_t) const override { return 0; }
-  double moved_inward(std::size_t) const override { return 0; }
-  Vector3 inward(std::size_t boundary) const override { return {0, 0, boundary == 0 ? 1. : -1.}; }
-  ServoLoad servo_load(std::size_t) const override { return {}; }
-};
-
 struct ThreeAround { // three boundaries around a bonded cylinder at rest
   Log log;
-  Nothing seen;
+  seen::Seen seen;
   Experiment experiment{small_cylinder(), settings(), TimeStepSettings{}};
   Noted &a = experiment.add(std::make_unique<Noted>("a", log));
   Noted &b = experiment.add(std::make_unique<Noted>("b", log));
@@ -169,7 +154,7 @@ private:
 TEST(experiment, boundaries_that_push_one_particle_take_turns) {
   const ThreadLimit limit(2);
   Log log;
-  Nothing seen;
+  seen::Seen seen;
   std::array<std::atomic<int>, 2> at{};
   std::atomic<int> met{0};
   Experiment experiment(small_cylinder(), ThreeAround::settings(), TimeStepSettings{});

@@ -164,6 +164,8 @@ TEST(Faults, platens_that_yield_or_turn_move_with_inertia) {
         [&](Settings &s) { spring(s), s.loading.start_strain = 1e-3; }},
        {"platens.machine.damping", "lets a servo swing",
         [&](Settings &s) { spring(s), control_stress(s), s.platens.machine.damping = 0; }},
+       {"platens.machine.damping", "servo", // of a cell
+        [&](Settings &s) { spring(s), press(s), s.platens.machine.damping = 0; }},
        {"", "", [&](Settings &s) { spring(s), s.platens.machine.damping = 0; }},
        {"platens.spherical_seat", "do not turn",
         [](Settings &s) { s.platens.spherical_seat = true, s.loading.start_strain = 1e-3; }},

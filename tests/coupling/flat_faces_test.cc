@@ -11,6 +11,7 @@
 #include "coupling/contact/faces.h"
 #include "coupling/contact/surface_search.h"
 #include "sphere_scene.h"
+#include "tests/instruction_sets.h"
 
 namespace platen::coupling {
 namespace {
@@ -84,10 +85,7 @@ TEST_F(FlatFeet, have_the_bits_of_single_ones_in_packs) {
     turned_round[centres.size() - 1 - k] = corners[k] + centres[k];
   }
   int feet = 0, none = 0;
-  for (const auto &[set, name] : {std::pair{dem::InstructionSet::baseline, "baseline"},
-                                  {dem::InstructionSet::avx2, "avx2"},
-                                  {dem::InstructionSet::avx512, "avx512"}}) {
-    if (set > dem::best_instruction_set()) continue;
+  for (const dem::InstructionSet set : dem::instruction_sets_here()) {
     for (std::size_t first = 0, many = 1; first < faces.size(); first += many, many = many % 32 + 1) {
       many = std::min(many, faces.size() - first);
       const FlatFace *face[SurfacePoints::most];
@@ -104,75 +102,17 @@ TEST_F(FlatFeet, have_the_bits_of_single_ones_in_packs) {
         FlatFoot alone;
         const bool expected = find_foot(
             faces[first + k], turned_round[static_cast<std::size_t>(at[k])] - corners[first + k], alone);
-        ASSERT_EQ((found >> k & 1u) != 0, expected) << name << ", face " << first + k << ", " << many;
+        ASSERT_EQ((found >> k & 1u) != 0, expected)
+            << dem::name(set) << ", face " << first + k << ", " << many;
         ++(expected ? feet : none);
         if (!expected) continue;
         ASSERT_TRUE(same_bits({points.u[k], points.v[k], points.distance[k]}, alone))
-            << name << ", face " << first + k;
+            << dem::name(set) << ", face " << first + k;
       }
     }
   }
   EXPECT_GT(feet, 1000);
   EXPECT_GT(none, 1000);
-}
-
-// A plate with two flat ends and a side of many flat faces, which drops by steps: on every face, over its
-// edges and corners, alone and in packs of any number, one answer, bit for bit.
-TEST(FlatFaces, of_a_plate_that_drops_have_one_answer) {
-  fem::SurfaceMesh surface =
-      fem::RigidBody(fem::make_grid(fem::CylinderPlate{0.5, 0.2, -0.1, 9, 2}), steel).surface();
-  ASSERT_TRUE(surface.only_shifted);
-  std::mt19937 engine(8);
-  std::uniform_real_distribution<double> draw(-0.6, 0.6), high(-0.2, 0.2);
-  std::vector<Vector3> centres;
-  for (int k = 0; k < 400; ++k)
-    centres.push_back({draw(engine), draw(engine), high(engine)});
-  const dem::Particles particles(spheres(centres, 0.05), 1000, false);
-  int inside = 0, beside = 0;
-  for (const auto set : {dem::InstructionSet::baseline, dem::best_instruction_set()}) {
-    SurfaceSearch search(surface, 0.04, set);
-    for (int step = 0; step < 12; ++step) {
-      for (Vector3 &v : surface.vertices)
-        v.z -= 0.007;
-      search.moved(0.007);
-      if (search.stale())
-        search.rebuild(surface, particles.position, std::vector<double>(particles.size(), 0.05), {});
-      search.update(surface);
-      const std::size_t listed = search.particles().size();
-      for (std::size_t first = 0, many = 1; first < listed; first += many, many = many % 32 + 1) {
-        many = std::min(many, listed - first);
-        std::vector<std::size_t> entry;
-        std::vector<Vector3> asked;
-        const int *at = &search.particles()[first];
-        for (std::size_t k = first; k < first + many; ++k) {
-          entry.push_back(k);
-          asked.push_back(particles.position[static_cast<std::size_t>(at[k - first])]);
-        }
-        SurfacePoints packed;
-        search.closest(surface, entry.data(), particles.position.data(), at, many, packed);
-        for (std::size_t k = 0; k < many; ++k) {
-          const SurfacePoint all = search.closest_of_all(surface, asked[k]);
-          for (const SurfacePoint &p : {packed.at(k), search.closest(surface, entry[k], asked[k])}) {
-            ASSERT_EQ(p.face, all.face) << "entry " << entry[k] << ", step " << step;
-            ASSERT_EQ(p.distance, all.distance) << "entry " << entry[k] << ", step " << step;
-            ASSERT_EQ(norm(p.normal - all.normal), 0) << "entry " << entry[k] << ", step " << step;
-            ASSERT_EQ(norm(p.local.point - all.local.point), 0) << "entry " << entry[k] << ", step " << step;
-            ASSERT_EQ(p.local.weights, all.local.weights) << "entry " << entry[k] << ", step " << step;
-            ASSERT_EQ(p.local.distance_squared, all.local.distance_squared) << "entry " << entry[k];
-          }
-          double nearest = std::numeric_limits<double>::infinity();
-          for (int face = 0; face < static_cast<int>(surface.faces.size()); ++face)
-            nearest =
-                std::min(nearest, closest_point(face_corners(surface, face, asked[k])).distance_squared);
-          ASSERT_NEAR(std::abs(all.distance), std::sqrt(nearest), 1e-14);
-          ASSERT_NEAR(all.local.distance_squared, nearest, 1e-14);
-          ++(all.local.feature == Feature::face ? inside : beside);
-        }
-      }
-    }
-  }
-  EXPECT_GT(inside, 500);
-  EXPECT_GT(beside, 100);
 }
 
 } // namespace

@@ -1,10 +1,10 @@
 // Contacts with faces in packs: the bits of the same contacts row by row, for every instruction set.
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <random>
 
 #include "sphere_scene.h"
+#include "tests/instruction_sets.h"
 
 namespace platen::coupling {
 namespace {
@@ -121,16 +121,14 @@ TEST(layer_kernel, contacts_in_packs_are_those_row_by_row) {
             EXPECT_LT(by_rows.slid + 100, by_rows.touched);
           }
           contact.in_packs = true;
-          for (const auto &[set, name] : {std::pair{dem::InstructionSet::baseline, "baseline"},
-                                          {dem::InstructionSet::avx2, "avx2"},
-                                          {dem::InstructionSet::avx512, "avx512"}}) {
-            if (set > dem::best_instruction_set()) continue;
+          for (const dem::InstructionSet set : dem::instruction_sets_here()) {
             contact.instruction_set = set;
             const Outcome packs = dance(contact, only_shifts, rotation);
             EXPECT_EQ(packs.bytes.size(), by_rows.bytes.size());
             EXPECT_TRUE(packs.bytes == by_rows.bytes)
-                << name << ", friction " << friction << ", damping " << damping << ", rotation " << rotation
-                << ", the surface " << (only_shifts ? "shifts" : "deforms") << ": the bits differ";
+                << dem::name(set) << ", friction " << friction << ", damping " << damping << ", rotation "
+                << rotation << ", the surface " << (only_shifts ? "shifts" : "deforms")
+                << ": the bits differ";
           }
         }
 }

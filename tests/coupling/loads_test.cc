@@ -5,7 +5,7 @@
 
 #include "coupling/platen_test.h"
 #include "coupling/program/circumferential_task.h"
-#include "tests/coupling/small_cylinder.h"
+#include "tests/coupling/set_ups.h"
 
 namespace platen::coupling {
 namespace {
@@ -31,10 +31,7 @@ TEST(loads, a_stress_loads_on_where_it_is_not_below_what_is_found) {
   const auto loads = [](double found, double value, double sense = compression) {
     Seen seen;
     seen.stress = found;
-    StressTask::Parameters p;
-    p.platens = top;
-    p.value = value;
-    p.servo = {10, 0.1};
+    const StressTask::Parameters p = stress_of(value);
     StressTask task(p);
     task.begin(seen, 0, {});
     return task.loads(sense);
@@ -75,11 +72,6 @@ TEST(loads, an_unloading_that_comes_first_does_not_turn_the_sense_of_the_test) {
   EXPECT_FALSE(drive->is_cycling(seen));
 }
 
-SideAsk asked_of(SideGroup side, Ask ask, double value = not_given) {
-  SideAsk one;
-  one.side = side, one.ask = ask, one.value = value;
-  return one;
-}
 SideAsk back() {
   SideAsk one = asked_of(SideGroup::axial, Ask::rate);
   one.back = true;
@@ -108,9 +100,7 @@ protected:
     s.loading.stages = stages_;
     if (boxed) s.platens.left = s.platens.right = s.platens.front = s.platens.back = side;
     if (!boxed) s.loading.cell.emplace();
-    const dem::Shape box = dem::box(10e-3, 10e-3, 12e-3);
-    return std::make_unique<PlatenTest>(
-        boxed ? dem::advancing_front(box, dem::equal_radii(1e-3), 3) : small_cylinder(), s);
+    return std::make_unique<PlatenTest>(boxed ? cube() : cylinder(), s);
   }
   std::vector<StageSettings> stages_;
 };

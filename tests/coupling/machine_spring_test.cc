@@ -1,5 +1,5 @@
-// A platen on the spring of its machine: oscillation and decay, its stable step, springs in series, what
-// falls by itself, and the energy balance of all of it.
+// A platen on the spring of its machine: oscillation and decay, its stable step, springs in series, and what
+// falls by itself.
 #include "coupling/boundaries/machine_spring.h"
 
 #include <gtest/gtest.h>
@@ -8,11 +8,9 @@
 #include <cmath>
 #include <limits>
 
-#include "base/parallel.h"
 #include "base/pi.h"
 #include "coupling/platen_test.h"
-#include "tests/coupling/on_machine.h"
-#include "tests/same_state.h"
+#include "tests/coupling/set_ups.h"
 
 namespace platen::coupling {
 namespace {
@@ -137,6 +135,7 @@ TEST(machine_spring, what_is_no_spring_is_refused) {
   EXPECT_THROW(MachineSpring({not_given, m, 0.1}), BadParameter);
   EXPECT_THROW(MachineSpring({k, not_given, 0.1}), BadParameter);
   EXPECT_THROW(MachineSpring({-k, m, 0.1}), BadParameter);
+  EXPECT_THROW(PlatenTest(sphere(), one_sphere(-1)), BadParameter);
   EXPECT_THROW(MachineSpring({k, 0, 0.1}), BadParameter);
   EXPECT_THROW(MachineSpring({k, m, 1.1}), BadParameter);
 }
@@ -145,11 +144,11 @@ TEST(machine_spring, is_in_series_with_the_specimen_and_rigid_where_it_is_stiff)
   PlatenTest rigid(sphere(), one_sphere(not_given));
   EXPECT_EQ(rigid.machine(), nullptr);
   EXPECT_TRUE(std::isnan(rigid.machine_closure()));
-  advance_to(rigid, 2e-3);
+  advance_until(rigid, 2e-3);
   EXPECT_NEAR(rigid.top().load() / rigid.bottom().closure() / contact, 1, 1e-3); // each half of the closure
   for (const double machine : {0.01 * contact, 0.1 * contact, contact, 100 * contact}) {
     PlatenTest test(sphere(), one_sphere(machine));
-    advance_to(test, 2e-3);
+    advance_until(test, 2e-3);
     const double series = 1 / (1 / machine + 2 / contact), force = test.axial_stress() * test.nominal_area();
     // The machine's dashpot bears what its spring is behind, 2 xi / w of its rate.
     const double lag = 2 * 0.3 * std::sqrt(test.machine()->settings().mass / machine),
@@ -198,71 +197,13 @@ TEST(machine_spring, a_servo_holds_its_stress_through_it) {
   }
 }
 
-TEST(machine_spring, the_energy_balance_closes_through_a_crush) {
-  for (const double machine : {1e7, 1e9}) {
-    PlatenTest test(cylinder(), crushing(machine));
-    while (test.model.broken_tension < 100 && test.steps() < 20000)
-      steps_to(test, test.steps() + 100);
-    EXPECT_GE(test.model.broken_tension, 100) << machine;
-    const dem::EnergyLedger energy = test.energy();
-    EXPECT_GT(energy.bodies, 0) << machine;
-    EXPECT_LT(std::abs(energy.residual()), 2e-3 * energy.boundary) << machine;
+// What else does not go with it is in faults_test.cc.
+TEST(machine_spring, a_mass_below_that_of_its_platen_is_refused) {
+  for (const PlatenKind &kind : {rigid_kind, yielding}) {
+    PlatenTestSettings settings = with(one_sphere(1e7), kind);
+    settings.platens.machine.mass = 1e-6;
+    expect_refused(sphere(), settings, "platens.machine.mass", "at least");
   }
-}
-
-TEST(machine_spring, a_stop_and_any_number_of_threads_change_nothing) {
-  const ThreadLimit one(1);
-  PlatenTest whole(cylinder(), crushing(1e8)), first(cylinder(), crushing(1e8));
-  steps_to(whole, 1300);
-  steps_to(first, 800);
-  EXPECT_NE(first.machine()->compression(), 0);
-  for (const int threads : {1, 2, 4}) {
-    const ThreadLimit limit(threads);
-    PlatenTest second(cylinder(), crushing(1e8));
-    set_state(second, state_of(first));
-    steps_to(second, 1300);
-    EXPECT_TRUE(same_state(whole, second)) << threads;
-  }
-  PlatenTest other(cylinder(), crushing(1e8));
-  EXPECT_THROW(set_state(other, without(state_of(first), "machine/compression")), StateError);
-}
-
-void refuses(const PlatenTestSettings &settings, const std::string &member, const std::string &word) {
-  try {
-    const PlatenTest test(sphere(), settings);
-    ADD_FAILURE() << member << " is taken";
-  } catch (const BadSetup &e) {
-    EXPECT_EQ(e.member(), member);
-    EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
-  }
-}
-
-TEST(machine_spring, what_does_not_go_with_it_is_refused) {
-  PlatenTestSettings settings = one_sphere(1e7);
-  settings.loading.start_strain = 1e-5;
-  refuses(settings, "platens.machine.stiffness", "loading.start_strain");
-  settings.loading.start_strain = 0;
-  settings.platens.machine.mass = 1e-6;
-  for (const bool yields : {false, true}) {
-    if (yields) settings.platens.elastic.emplace();
-    refuses(settings, "platens.machine.mass", "at least");
-  }
-  settings.platens.elastic.reset();
-  settings.platens.machine.mass = not_given;
-  settings.platens.machine.damping = 0;
-  settings.loading.servo = true, settings.loading.top_stress = 1e6;
-  refuses(settings, "platens.machine.damping", "servo");
-  settings.loading.servo = false;
-  settings.loading.cell.emplace().pressure = 1e6;
-  refuses(settings, "platens.machine.damping", "servo");
-  settings.loading.cell.reset();
-  SideAsk stress;
-  stress.side = SideGroup::axial, stress.ask = SideAsk::Ask::stress, stress.value = 1e6;
-  settings.loading.stages.emplace_back().asks = {stress};
-  refuses(settings, "platens.machine.damping", "servo");
-  settings.loading.stages.clear();
-  settings.platens.machine.stiffness = -1;
-  EXPECT_THROW(PlatenTest(sphere(), settings), BadParameter);
 }
 
 } // namespace

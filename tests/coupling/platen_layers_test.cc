@@ -1,7 +1,6 @@
 // Platens of several layers: what they are made of, and that they yield as springs in series.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -9,9 +8,7 @@
 #include "coupling/platen_test.h"
 #include "coupling/platens_of_test.h"
 #include "fem/grids.h"
-#include "tests/coupling/elastic_problem.h"
-#include "tests/coupling/small_cylinder.h"
-#include "tests/measured.h"
+#include "tests/coupling/set_ups.h"
 #include "tests/same_state.h"
 
 namespace platen::coupling {
@@ -19,7 +16,7 @@ namespace {
 
 constexpr fem::Material steel{7850, 210e9, 0.3}, rubber{1100, 5e6, 0.45}, lead{11300, 16e9, 0.44};
 
-PlatenTestSettings elastic(double thickness) {
+PlatenTestSettings layered(double thickness) {
   PlatenTestSettings s = elastic_settings(0.5);
   s.platens.thickness = thickness;
   s.platens.material = steel;
@@ -28,7 +25,7 @@ PlatenTestSettings elastic(double thickness) {
 }
 
 TEST(platen_layers, begin_at_the_specimen_and_leave_the_rest_to_the_platen) {
-  PlatenSettings p = elastic(10e-3).platens;
+  PlatenSettings p = layered(10e-3).platens;
   p.elastic->layers = {{1e-3, rubber}, {2e-3, lead}};
   for (const Side side : {Side::top, Side::bottom}) {
     const std::vector<PlatenLayer> layers = layers_of(p, side);
@@ -57,12 +54,12 @@ TEST(platen_layers, begin_at_the_specimen_and_leave_the_rest_to_the_platen) {
 // Of elastic platens by the nodes of degree 1 that were made: planes of one more node than layers.
 TEST(platen_layers, elements_are_counted_as_they_are_made) {
   for (const int across : {4, 9, 16}) {
-    PlatenTestSettings s = elastic(6e-3);
+    PlatenTestSettings s = layered(6e-3);
     s.platens.elastic->degree = 1;
     s.platens.elements_across = across;
     for (const bool layered : {false, true}) {
       if (layered) s.platens.elastic->layers = {{1e-3, lead}};
-      const PlatenTest problem(small_cylinder(), s);
+      const PlatenTest problem(cylinder(), s);
       const double half = s.platens.overhang * problem.shape().radius;
       double through = 0;
       for (const fem::Layer &layer : elements_of_layers(s.platens, Side::top, half))
@@ -73,33 +70,24 @@ TEST(platen_layers, elements_are_counted_as_they_are_made) {
       EXPECT_EQ((in_plane + 2 * on_the_rim + 1) * (through + 1), nodes) << across; // Euler: of a disc
     }
     s.platens.elastic.reset();
-    EXPECT_EQ(cells_of_platen(small_cylinder().shape, s, Side::bottom),
-              2 * fem::cells_in({1, 1, 0, across, 1}));
-  }
-}
-
-std::string refused(const PlatenTestSettings &settings) {
-  try {
-    const PlatenTest problem(small_cylinder(), settings);
-    return "";
-  } catch (const BadSetup &e) {
-    return e.member() + " " + e.reason();
+    EXPECT_EQ(cells_of_platen(cylinder().shape, s, Side::bottom), 2 * fem::cells_in({1, 1, 0, across, 1}));
   }
 }
 
 TEST(platen_layers, that_cannot_be_are_refused_by_name) {
-  PlatenTestSettings s = elastic(4e-3);
+  PlatenTestSettings s = layered(4e-3);
   s.platens.elastic->layers = {{1e-3, rubber}, {3.1e-3, lead}};
-  EXPECT_NE(refused(s).find("platens.elastic.layers is 0.0041 m thick. Allowed: up to 0.004 m"),
+  EXPECT_NE(refusal(cylinder(), s).find("platens.elastic.layers is 0.0041 m thick. Allowed: up to 0.004 m"),
             std::string::npos)
-      << refused(s);
+      << refusal(cylinder(), s);
   s.platens.elastic->layers = {{1e-3, rubber}, {0, lead}};
-  EXPECT_NE(refused(s).find("platens.elastic.layers has a layer of no thickness"), std::string::npos);
+  EXPECT_NE(refusal(cylinder(), s).find("platens.elastic.layers has a layer of no thickness"),
+            std::string::npos);
   s.platens.elastic->layers = {{1e-3, {1100, 5e6, 0.5}}};
-  EXPECT_NE(refused(s).find("Poisson ratio"), std::string::npos);
+  EXPECT_NE(refusal(cylinder(), s).find("Poisson ratio"), std::string::npos);
   s.platens.elastic->layers.clear();
   s.platens.top.layers = {{5e-3, lead}};
-  EXPECT_NE(refused(s).find("platens.top.layers is 0.005 m thick"), std::string::npos);
+  EXPECT_NE(refusal(cylinder(), s).find("platens.top.layers is 0.005 m thick"), std::string::npos);
 }
 
 // Without Poisson's ratio an even traction shortens layers by p sum t / E, the same everywhere on the face.
@@ -112,7 +100,7 @@ TEST(platen_layers, yield_as_springs_in_series) {
           p.layers = {{1e-3, {1100, 5e6, 0}}, {2e-3, {2700, 70e9, 0}}, {0.5e-3, {2200, 0.5e9, 0}}};
           return p;
         }()}) {
-    PlatenSettings p = elastic(thickness).platens;
+    PlatenSettings p = layered(thickness).platens;
     p.elastic = with;
     p.elastic->motion = fem::ElasticMotion::quasi_static;
     p.material.poisson_ratio = 0;
@@ -148,12 +136,12 @@ TEST(platen_layers, yield_as_springs_in_series) {
 // A pad is one more way to say two layers, to the last bit.
 TEST(platen_layers, a_pad_is_two_layers) {
   for (const int degree : {1, 2}) {
-    PlatenTestSettings pad = elastic(4e-3), layers = pad;
+    PlatenTestSettings pad = layered(4e-3), layers = pad;
     pad.platens.elastic->degree = layers.platens.elastic->degree = degree;
     pad.platens.elastic->pad_thickness = 1e-3;
     pad.platens.elastic->pad = {1200, 1e9, 0.3};
     layers.platens.elastic->layers = {{1e-3, {1200, 1e9, 0.3}}, {3e-3, steel}};
-    PlatenTest one(small_cylinder(), pad), other(small_cylinder(), layers);
+    PlatenTest one(cylinder(), pad), other(cylinder(), layers);
     one.advance(200), other.advance(200);
     EXPECT_TRUE(same_state(one, other)) << degree;
   }
@@ -161,28 +149,29 @@ TEST(platen_layers, a_pad_is_two_layers) {
 
 // Physical volumes of a mesh are the layers in their order; the names alone count.
 TEST(platen_layers, of_a_mesh_are_its_physical_volumes) {
-  PlatenTestSettings made = elastic(4e-3);
+  PlatenTestSettings made = layered(4e-3);
   const fem::Material hard{1200, 1e9, 0.3};
   made.platens.elastic->layers = {{1e-3, hard}, {1e-3, lead}, {2e-3, steel}};
   PlatenTestSettings given = made;
-  const double radius = made.platens.overhang * small_cylinder().shape.radius;
+  const double radius = made.platens.overhang * cylinder().shape.radius;
   // Material 0 at the low end, which faces the specimen.
   given.platens.top.grid =
       fem::make_grid(fem::CylinderPlate{radius, 4e-3, 14e-3, made.platens.elements_across, 1},
                      elements_of_layers(made.platens, Side::top, radius));
   given.platens.top.layers = {{0, hard}, {0, lead}, {0, steel}};
-  PlatenTest one(small_cylinder(), made), other(small_cylinder(), given);
+  PlatenTest one(cylinder(), made), other(cylinder(), given);
   one.advance(1500), other.advance(1500);
   ASSERT_GT(one.stress_top(), 1e3);
   EXPECT_NEAR(other.stress_top() / one.stress_top(), 1, 1e-6);
   EXPECT_EQ(one.top().body().mass(), other.top().body().mass());
   given.platens.top.layers.pop_back();
-  EXPECT_NE(refused(given).find("platens.top.grid has 3 physical volumes: there are 2 layers in "
-                                "`platens.top.layers`"),
+  EXPECT_NE(refusal(cylinder(), given)
+                .find("platens.top.grid has 3 physical volumes: there are 2 layers in "
+                      "`platens.top.layers`"),
             std::string::npos)
-      << refused(given);
+      << refusal(cylinder(), given);
   given.platens.top.layers.clear(), given.platens.elastic->layers.clear();
-  EXPECT_NE(refused(given).find("platens.elastic.pad_modulus"), std::string::npos);
+  EXPECT_NE(refusal(cylinder(), given).find("platens.elastic.pad_modulus"), std::string::npos);
 }
 
 } // namespace

@@ -7,35 +7,22 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "tests/coupling/small_cylinder.h"
+#include "tests/coupling/set_ups.h"
 #include "tests/same_state.h"
 
 namespace platen::coupling {
 namespace {
 
-// Brittle and fast, so that bonds break and platens slide within some hundred steps.
-PlatenTestSettings crushing() {
-  PlatenTestSettings s;
-  s.model.bond_layout.modulus = 36e9;
-  s.model.bond_layout.gap.value = 0.05;
-  s.model.bond = dem::ParallelBond::Parameters{0.4, 2e6, 6e6, 0.7853981633974483, 0.3};
-  s.model.contact = dem::ContactSettings{};
-  s.model.contact->damping = 0;
-  s.model.local_damping = 0.3;
+PlatenTestSettings with_weight() {
+  PlatenTestSettings s = crushing();
   s.model.gravity = {0, 0, -9.81};
-  s.ends = Ends::ground;
-  s.end_layer = 0.5;
-  s.platens.top = s.platens.bottom = {0.3, 0.2};
-  s.platens.thickness = 2e-3;
-  s.loading.rate = 1;
-  s.loading.ramp = 1e-6;
   return s;
 }
 
 // The spheres weigh what the shape filled with the solid weighs, and a wave crosses in h sqrt(rho / E).
 TEST(platen_test, a_density_of_the_solid_is_that_of_the_specimen) {
-  const dem::Specimen specimen = small_cylinder();
-  PlatenTestSettings settings = crushing();
+  const dem::Specimen &specimen = cylinder();
+  PlatenTestSettings settings = with_weight();
   settings.model.density = 2201;
   settings.model.density_of = dem::DensityOf::solid;
   settings.model.mass_scaling = 4;
@@ -51,8 +38,8 @@ TEST(platen_test, a_density_of_the_solid_is_that_of_the_specimen) {
 }
 
 TEST(platen_test, platens_without_a_thickness_have_a_tenth_of_the_height) {
-  const dem::Specimen specimen = small_cylinder();
-  PlatenTestSettings settings = crushing();
+  const dem::Specimen &specimen = cylinder();
+  PlatenTestSettings settings = with_weight();
   settings.platens.thickness = 0;
   const PlatenTest problem(specimen, settings);
   EXPECT_DOUBLE_EQ(problem.settings().platens.thickness, 0.1 * specimen.shape.height);
@@ -70,8 +57,8 @@ TEST(platen_test, a_density_of_the_solid_needs_a_volume) {
 }
 
 TEST(platen_test, steps_in_one_go_are_the_same_as_one_by_one) {
-  const dem::Specimen specimen = small_cylinder();
-  PlatenTest one_by_one(specimen, crushing()), in_one_go(specimen, crushing());
+  const dem::Specimen &specimen = cylinder();
+  PlatenTest one_by_one(specimen, with_weight()), in_one_go(specimen, with_weight());
   constexpr long steps = 900; // past the first closed contacts, where the time step is chosen anew
   std::vector<double> strains;
   for (long s = 0; s < steps; ++s) {
@@ -102,8 +89,8 @@ std::size_t contacts_closed(const PlatenTest &test) {
 // The time step is chosen anew every 400 steps where contacts have closed; a run that is resumed just there
 // has not touched anything yet.
 TEST(platen_test, a_run_resumed_where_the_step_is_chosen_goes_on_the_same) {
-  const dem::Specimen specimen = small_cylinder();
-  PlatenTestSettings slow = crushing();
+  const dem::Specimen &specimen = cylinder();
+  PlatenTestSettings slow = with_weight();
   slow.loading.rate = 0.3; // few contacts close between two choices
   PlatenTest run(specimen, slow);
   const auto near_at_choice = [](const PlatenTest &problem) {

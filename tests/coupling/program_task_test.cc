@@ -98,11 +98,7 @@ TEST(stress, what_stays_missing_is_asked_again) {
 TEST(stress, of_either_sign_settles_within_a_hundredth) {
   for (const double value : {5e6, -5e6}) {
     Seen seen;
-    StressTask::Parameters p;
-    p.platens = top;
-    p.side = "top";
-    p.value = value;
-    p.servo = {10, 0.1};
+    const StressTask::Parameters p = stress_of(value);
     StressTask task(p);
     task.begin(seen, 0, {});
     seen.now = dt;
@@ -130,9 +126,7 @@ TEST(stress, what_moves_is_brought_to_rest) {
       tasks.push_back(std::make_unique<HoldTask>(axial, 2e-4));
     else
       tasks.push_back(std::make_unique<StressTask>(p));
-    StageEnd::Parameters end;
-    end.any = {until(Until::Reached::time, 1)};
-    stages.push_back(stage_of("after", std::move(tasks), end));
+    stages.push_back(stage_of("after", std::move(tasks), ends_at(Until::Reached::time, 1)));
     Program program(seen, std::move(stages), {drive});
     seen.now = dt, seen.stress = 5e6, seen.closure = 1e-3;
     EXPECT_EQ(ask(program)[0].velocity[2], 0.04);
@@ -198,9 +192,7 @@ TEST(pressure, follows_the_deviator_with_its_lag_and_is_never_negative) {
   PressureTask::Parameters p = to(10e6, 0);
   p.path = -1.0 / 3, p.lag = 50 * dt;
   PressureTask path(p);
-  Handover from;
-  from.asked.resize(3);
-  from.asked[lateral].pressure = 10e6;
+  Handover from = after_pressure(10e6);
   path.begin(seen, 0, from);
   const auto asked = [&] {
     Commands all(3);
@@ -229,9 +221,7 @@ TEST(pressure, follows_the_deviator_with_its_lag_and_is_never_negative) {
 
 TEST(pressure, rises_from_what_it_finds_and_follows_a_share) {
   Seen seen;
-  Handover from;
-  from.asked.resize(3);
-  from.asked[lateral].pressure = 3e6;
+  Handover from = after_pressure(3e6);
   PressureTask up(to(7e6, 1e-3));
   up.begin(seen, 1e-3, from);
   Commands all(3);

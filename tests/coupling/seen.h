@@ -50,15 +50,25 @@ inline std::unique_ptr<Stage> stage_of(const std::string &name, Tasks tasks, con
                                         std::move(tasks), StageEnd(end));
 }
 
+inline StageEnd::Parameters ends_at(Until::Reached what, double value) {
+  StageEnd::Parameters end;
+  end.any = {until(what, value)};
+  return end;
+}
+inline Tasks one_task(std::unique_ptr<Task> task) {
+  Tasks tasks;
+  tasks.push_back(std::move(task));
+  return tasks;
+}
+
 // Closes at a rate until a closure strain.
 inline std::unique_ptr<Stage> at_rate(const std::shared_ptr<Drive> &drive, double rate, double ramp,
                                       const Until &end) {
-  Tasks tasks;
-  tasks.push_back(std::make_unique<RateTask>(drive, rate, ramp));
   StageEnd::Parameters over;
   over.any = {end};
   over.ramp = ramp;
-  return stage_of("compression", std::move(tasks), over, end.value * 0.1 / std::abs(rate));
+  return stage_of("compression", one_task(std::make_unique<RateTask>(drive, rate, ramp)), over,
+                  end.value * 0.1 / std::abs(rate));
 }
 
 inline std::shared_ptr<Drive> drive_of_both(
@@ -66,13 +76,22 @@ inline std::shared_ptr<Drive> drive_of_both(
   return std::make_shared<Drive>(Drive::Parameters{axial, control});
 }
 
-inline std::unique_ptr<Task> stress_on_top(double stress, double ramp) {
+inline StressTask::Parameters stress_of(double value, const PlatensOfAxis &platens = top) {
   StressTask::Parameters p;
-  p.platens = top;
-  p.side = "top";
-  p.value = stress;
+  p.platens = platens, p.side = "top", p.value = value, p.servo = {10, 0.1};
+  return p;
+}
+// What a stage before it asked of the lateral surface, Pa.
+inline Handover after_pressure(double pressure) {
+  Handover from;
+  from.asked.resize(3);
+  from.asked[lateral].pressure = pressure;
+  return from;
+}
+
+inline std::unique_ptr<Task> stress_on_top(double stress, double ramp) {
+  StressTask::Parameters p = stress_of(stress);
   p.ramp = ramp;
-  p.servo = {10, 0.1};
   p.settled_by = {axial};
   return std::make_unique<StressTask>(p);
 }

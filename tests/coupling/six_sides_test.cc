@@ -7,24 +7,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.h"
 #include "coupling/program_of_test.h"
-#include "dem/packing/advancing_front.h"
 #include "fem/grids.h"
-#include "tests/coupling/small_cylinder.h"
-#include "tests/same_state.h"
+#include "tests/coupling/set_ups.h"
 
 namespace platen::coupling {
 namespace {
 
 constexpr double edge = 12e-3, asked = 5e6; // m, Pa
-
-dem::Specimen cube() {
-  dem::Shape shape;
-  shape.kind = dem::ShapeKind::box;
-  shape.width_x = shape.width_y = shape.height = edge;
-  return dem::advancing_front(shape, {dem::RadiusDistribution::Kind::uniform, 0.7e-3, 1e-3}, 3);
-}
 
 // Turned so that what lay along x lies along y, y along z, z along x.
 dem::Specimen turned(const dem::Specimen &from) {
@@ -34,42 +24,6 @@ dem::Specimen turned(const dem::Specimen &from) {
     to.centre[i] = {c.z - 0.5 * edge, c.x, c.y + 0.5 * edge};
   }
   return to;
-}
-
-SideAsk asked_of(SideGroup side, SideAsk::Ask ask, double value) {
-  SideAsk one;
-  one.side = side, one.ask = ask, one.value = value;
-  return one;
-}
-
-StageSettings stresses_on(const std::array<double, 3> &stresses) {
-  StageSettings stage;
-  stage.name = "stresses";
-  stage.asks = {asked_of(SideGroup::lateral_x, SideAsk::Ask::stress, stresses[0]),
-                asked_of(SideGroup::lateral_y, SideAsk::Ask::stress, stresses[1]),
-                asked_of(SideGroup::axial, SideAsk::Ask::stress, stresses[2])};
-  stage.until = {{Until::Reached::settled}, {Until::Reached::time, 1e-3}};
-  stage.latest = 1e-3;
-  return stage;
-}
-
-PlatenTestSettings six_platens(const std::array<double, 3> &stresses = {asked, asked, asked}) {
-  PlatenTestSettings s;
-  s.model.bond_layout.modulus = 36e9;
-  s.model.bond_layout.gap.value = 0.05;
-  s.model.bond = dem::ParallelBond::Parameters{0.4, 1e12, 1e12, 0.0, 0.3};
-  s.model.local_damping = 0; // its signs would tell round-off at rest apart
-  s.ends = Ends::ground;
-  s.end_layer = 0.5;
-  s.platens.thickness = 2e-3;
-  s.platens.stiffness.value = 10;
-  PlatenSide side;
-  side.friction_static = side.friction_dynamic = 0;
-  s.platens.top = s.platens.bottom = side;
-  s.platens.left = s.platens.right = s.platens.front = s.platens.back = side;
-  s.time_step.fixed_step = 8e-8; // that of two packings alike
-  s.loading.stages = {stresses_on(stresses)};
-  return s;
 }
 
 // Strains count from the end of a stage that presses all three axes alike, of no other.
@@ -179,47 +133,13 @@ TEST(six_sides, a_side_follows_a_share_of_another_sides_stress) {
   EXPECT_TRUE(std::isnan(test.closure_strain(1)));
 }
 
-TEST(six_sides, a_stop_and_any_number_of_threads_change_nothing) {
-  const ThreadLimit one(1);
-  PlatenTest whole(cube(), six_platens()), first(cube(), six_platens());
-  whole.advance(700), whole.advance(500);
-  first.advance(700);
-  for (const int threads : {1, 2, 4}) {
-    const ThreadLimit limit(threads);
-    PlatenTest second(cube(), six_platens());
-    set_state(second, state_of(first));
-    second.advance(500);
-    EXPECT_TRUE(same_state(whole, second)) << threads;
-  }
-}
-
-// What the settings are refused for: the member and a word of the reason.
-void refuses(const dem::Specimen &specimen, const PlatenTestSettings &settings, const std::string &member,
-             const std::string &word) {
-  try {
-    const PlatenTest test(specimen, settings);
-    ADD_FAILURE() << member << " is taken";
-  } catch (const BadSetup &e) {
-    EXPECT_EQ(e.member(), member);
-    EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
-  }
-}
-
 TEST(six_sides, what_has_no_such_sides_is_refused) {
   PlatenTestSettings settings = six_platens();
   settings.platens.left.reset(), settings.platens.right.reset(), settings.platens.front.reset();
-  refuses(small_cylinder(), settings, "platens.back", "box");
-  const dem::Specimen box = cube();
+  expect_refused(cylinder(), settings, "platens.back", "box");
   settings = six_platens();
-  settings.loading.cell = CellSettings{};
-  settings.loading.cell->pressure = 1e6;
-  refuses(box, settings, "platens.left", "loading.cell");
-  settings.loading.cell.reset();
-  settings.loading.wall = true;
-  refuses(box, settings, "platens.left", "loading.wall");
-  settings.loading.wall = false;
   settings.platens.edge_gap = 0.26 * edge;
-  refuses(box, settings, "platens.edge_gap", "quarter");
+  expect_refused(cube(), settings, "platens.edge_gap", "quarter");
 }
 
 // A mesh is laid on its side as a plate is, z towards the specimen, x and y exchanged in a cycle; it must end
@@ -239,7 +159,7 @@ TEST(six_sides, meshes_lie_on_their_sides_and_short_of_each_other) {
       low[k] = std::min(low[k], x[k]), high[k] = std::max(high[k], x[k]);
   EXPECT_LT(norm(low - Vector3{-0.5 * edge - 2e-3, -5e-3, 0.5 * edge - 3e-3}), 1e-12);
   EXPECT_LT(norm(high - Vector3{-0.5 * edge, 5e-3, 0.5 * edge + 3e-3}), 1e-12);
-  refuses(cube(), with_mesh(5.9e-3), "platens.left.grid", "along y, where the platen");
+  expect_refused(cube(), with_mesh(5.9e-3), "platens.left.grid", "along y, where the platen");
 }
 
 // The axis of the platens that go at a rate, the axial one among several; what holds or bears a stress loads
@@ -311,9 +231,8 @@ TEST(six_sides, elastic_platens_press_all_sides) {
 
 // The packing turned, and with it the stresses: each axis does what the one before it did.
 TEST(six_sides, no_axis_is_another_than_the_others) {
-  const dem::Specimen specimen = cube();
-  PlatenTest before(specimen, six_platens({1e6, 3e6, 5e6})),
-      after(turned(specimen), six_platens({5e6, 1e6, 3e6}));
+  PlatenTest before(cube(), six_platens({1e6, 3e6, 5e6})),
+      after(turned(cube()), six_platens({5e6, 1e6, 3e6}));
   for (PlatenTest *test : {&before, &after})
     for (int steps = 0; steps < 2000; ++steps)
       test->step();

@@ -8,10 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.h"
 #include "dem/model.h"
-#include "tests/coupling/elastic_problem.h"
-#include "tests/coupling/small_cylinder.h"
+#include "tests/coupling/set_ups.h"
 #include "tests/same_state.h"
 
 namespace platen::coupling {
@@ -118,18 +116,6 @@ TEST(sleeve, the_energy_of_pressure_is_found_again) {
   EXPECT_LT(std::abs(cell.residual()), 0.01 * cell.sleeve.work());
 }
 
-TEST(sleeve, a_stop_in_an_interval_changes_no_bit) {
-  Cell whole, first, second;
-  whole.run(1e-4);
-  first.run(5e-5);
-  const State kept = state_of(first.sleeve);
-  set_state(second.sleeve, kept);
-  EXPECT_TRUE(same_state(kept, second.sleeve));
-  EXPECT_EQ(second.sleeve.solid().surface().vertices, first.sleeve.solid().surface().vertices);
-  first.run(1e-4);
-  EXPECT_TRUE(same_state(whole.sleeve, first.sleeve));
-}
-
 // Loads that nobody asked for are not those of the next step.
 TEST(sleeve, a_step_begins_without_the_loads_of_the_last_one) {
   Cell cell;
@@ -221,22 +207,6 @@ TEST(sleeve, an_interval_that_would_invert_an_element_is_cut) {
       EXPECT_NEAR(velocity[n][k], expected[n][k], 1e-12 * wall / interval);
   EXPECT_NEAR(cell.sleeve.work(), other.work(), 1e-12 * other.stored());
   EXPECT_NEAR(cell.sleeve.lost(), other.lost(), 1e-12 * other.stored());
-}
-
-TEST(sleeve, threads_change_no_bit) {
-  Cell one, two;
-  {
-    const ThreadLimit limit(1);
-    one.run(5e-5);
-  }
-  {
-    const ThreadLimit limit(2);
-    two.run(5e-5);
-  }
-  EXPECT_TRUE(same_state(one.sleeve, two.sleeve));
-  for (std::size_t k = 0; k < one.model.particles.size(); ++k)
-    for (int axis = 0; axis < 3; ++axis)
-      ASSERT_EQ(one.model.particles.position[k][axis], two.model.particles.position[k][axis]);
 }
 
 TEST(sleeve, what_cannot_be_is_refused) {

@@ -21,9 +21,7 @@ TEST(consolidation, waits_for_the_platens_and_hands_over_from_its_end) {
   Tasks tasks;
   tasks.push_back(std::make_unique<RateTask>(drive, 0.08, 1e-3));
   tasks.push_back(std::make_unique<HoldPressureTask>(lateral));
-  StageEnd::Parameters end;
-  end.any = {until(Until::Reached::strain, 1e-3)};
-  stages.push_back(stage_of("compression", std::move(tasks), end));
+  stages.push_back(stage_of("compression", std::move(tasks), ends_at(Until::Reached::strain, 1e-3)));
   Program program(seen, std::move(stages), {drive});
   seen.now = 0.5e-3;
   EXPECT_NEAR(ask(program)[2].pressure, 2e6, 1e-6); // half of the ramp
@@ -185,18 +183,6 @@ TEST(stage_end, says_which_of_its_list_it_was) {
   EXPECT_EQ(end.reached(seen, 2e-3, false), 3);
   seen.closure = 1e-3;
   EXPECT_EQ(end.reached(seen, 2e-3, true), 1);
-}
-
-TEST(stage_end, every_end_has_its_word) {
-  using R = Until::Reached;
-  EXPECT_STREQ(name_of(R::strain), "strain");
-  EXPECT_STREQ(name_of(R::strain_change), "strain change");
-  EXPECT_STREQ(name_of(R::stress), "stress");
-  EXPECT_STREQ(name_of(R::share_of_peak), "share of peak");
-  EXPECT_STREQ(name_of(R::share_of_start), "share of start");
-  EXPECT_STREQ(name_of(R::circumferential_strain), "circumferential strain");
-  EXPECT_STREQ(name_of(R::time), "time");
-  EXPECT_STREQ(name_of(R::settled), "settled");
 }
 
 } // namespace

@@ -6,13 +6,12 @@
 #include <cmath>
 
 #include "dem/measure/gauge.h"
-#include "tests/coupling/elastic_problem.h"
-#include "tests/coupling/small_cylinder.h"
+#include "tests/coupling/set_ups.h"
 
 namespace platen::coupling {
 namespace {
 
-PlatenTestSettings elastic(double friction, const dem::BondParameters &bond) {
+PlatenTestSettings pressed_by(double friction, const dem::BondParameters &bond) {
   PlatenTestSettings s = elastic_settings(0.5, bond);
   s.platens.top = s.platens.bottom = {friction, friction};
   s.platens.damping = 0;
@@ -33,9 +32,9 @@ void PrintTo(const Case &c, std::ostream *out) {
 class StaticAgainstExplicit : public testing::TestWithParam<Case> {};
 
 TEST_P(StaticAgainstExplicit, gives_the_same_modulus_and_poissons_ratio) {
-  PlatenTestSettings settings = elastic(GetParam().friction, GetParam().bond);
+  PlatenTestSettings settings = pressed_by(GetParam().friction, GetParam().bond);
   settings.platens.glued = GetParam().glued;
-  PlatenTest problem(small_cylinder(), settings);
+  PlatenTest problem(cylinder(), settings);
   const StaticPress still = press_statically(problem, 1e-5);
   EXPECT_GT(still.closed_top, 10u);
   EXPECT_GT(still.closed_bottom, 10u);
@@ -47,7 +46,7 @@ TEST_P(StaticAgainstExplicit, gives_the_same_modulus_and_poissons_ratio) {
   while (problem.closure_strain() < 1e-5)
     problem.step();
   const dem::GaugeStrain strain = gauge.strain(problem.model.particles);
-  const double stress = 0.5 * (problem.stress_top() + problem.stress_bottom());
+  const double stress = mean_stress(problem);
   EXPECT_GT(problem.steps(), 2000);
   EXPECT_NEAR(still.youngs_modulus() / (stress / -strain.axial), 1, 1e-3);
   EXPECT_NEAR(still.platen_modulus() / (stress / problem.closure_strain()), 1, 1e-3);
@@ -62,9 +61,9 @@ INSTANTIATE_TEST_SUITE_P(static_press, StaticAgainstExplicit,
                          [](const testing::TestParamInfo<Case> &c) { return c.param.name; });
 
 TEST(static_press, stress_is_linear_where_no_contact_changes) {
-  PlatenTestSettings settings = elastic(1e6, unbreakable_bond());
+  PlatenTestSettings settings = pressed_by(1e6, unbreakable_bond());
   settings.end_layer = 0.05; // few seats, and no other sphere within reach
-  PlatenTest problem(small_cylinder(), settings);
+  PlatenTest problem(cylinder(), settings);
   const StaticPress once = press_statically(problem, 1e-7), twice = press_statically(problem, 2e-7);
   ASSERT_EQ(once.closed_top, twice.closed_top);
   EXPECT_NEAR(twice.stress, 2 * once.stress, 1e-6 * once.stress);
@@ -72,12 +71,12 @@ TEST(static_press, stress_is_linear_where_no_contact_changes) {
 
 // Glue holds sideways without friction, and where free ends would let go.
 TEST(static_press, glued_ends_are_stiffer_than_free_ones) {
-  PlatenTestSettings settings = elastic(0, unbreakable_bond());
-  PlatenTest lubricated(small_cylinder(), settings);
+  PlatenTestSettings settings = pressed_by(0, unbreakable_bond());
+  PlatenTest lubricated(cylinder(), settings);
   settings.platens.glued = true;
-  PlatenTest glued(small_cylinder(), settings);
-  settings = elastic(1e6, unbreakable_bond());
-  PlatenTest sticking(small_cylinder(), settings);
+  PlatenTest glued(cylinder(), settings);
+  settings = pressed_by(1e6, unbreakable_bond());
+  PlatenTest sticking(cylinder(), settings);
   const StaticPress slides = press_statically(lubricated, 1e-5), holds = press_statically(glued, 1e-5),
                     sticks = press_statically(sticking, 1e-5);
   EXPECT_GT(holds.platen_modulus(), 1.001 * slides.platen_modulus());
@@ -89,7 +88,7 @@ TEST(static_press, glued_ends_are_stiffer_than_free_ones) {
 
 // One on the lower platen, carried up by it alone, and one that touches nothing.
 TEST(static_press, loose_spheres_change_nothing) {
-  const dem::Specimen bonded = small_cylinder();
+  const dem::Specimen bonded = cylinder();
   const double r = 0.5e-3, beside = bonded.shape.radius + 1.2 * r;
   dem::Specimen more = bonded;
   for (const double z : {r, 0.5 * bonded.shape.height}) {
@@ -97,8 +96,8 @@ TEST(static_press, loose_spheres_change_nothing) {
     more.radius.push_back(r);
   }
   for (const double friction : {0., 1e6}) {
-    PlatenTest without(bonded, elastic(friction, unbreakable_bond())),
-        with(more, elastic(friction, unbreakable_bond()));
+    PlatenTest without(bonded, pressed_by(friction, unbreakable_bond())),
+        with(more, pressed_by(friction, unbreakable_bond()));
     ASSERT_EQ(with.model.bonds->size(), without.model.bonds->size());
     const StaticPress a = press_statically(without, 1e-5), b = press_statically(with, 1e-5);
     EXPECT_EQ(b.closed_top, a.closed_top);
@@ -113,14 +112,11 @@ PlatenTestSettings breakable(double rate) {
   bond.tensile_strength = 10e6;
   bond.shear_strength = 28e6;
   bond.friction_angle = 0.7853981633974483; // 45 degrees
-  PlatenTestSettings s = elastic(1e6, bond);
+  PlatenTestSettings s = pressed_by(1e6, bond);
   s.model.contact = dem::ContactSettings{};
   s.model.contact->damping = 0;
   s.loading.rate = rate;
   return s;
-}
-double mean_stress(const PlatenTest &p) {
-  return 0.5 * (p.stress_top() + p.stress_bottom());
 }
 struct Loaded {
   double modulus = 0, strength = 0, first_crack = 0, strain_at_peak = 0;
@@ -143,7 +139,7 @@ Loaded load(PlatenTest &problem, double at) {
 
 TEST(static_start, leaves_nothing_in_motion_and_closes_the_energy_balance) {
   constexpr double strain = 5e-4;
-  PlatenTest problem(small_cylinder(), breakable(1e-6)); // platens that all but stand
+  PlatenTest problem(cylinder(), breakable(1e-6)); // platens that all but stand
   const StaticPress p = start_statically(problem, strain);
   EXPECT_EQ(problem.time(), 0);
   EXPECT_EQ(problem.steps(), 0);
@@ -191,15 +187,15 @@ TEST(static_start, goes_on_to_the_same_modulus_and_strength) {
 }
 
 TEST(static_start, is_refused_where_bonds_break_or_the_run_has_begun) {
-  PlatenTest beyond(small_cylinder(), breakable(0.04));
+  PlatenTest beyond(cylinder(), breakable(0.04));
   EXPECT_THROW(start_statically(beyond, 5e-3), BadSetup);
-  PlatenTest late(small_cylinder(), breakable(0.04));
+  PlatenTest late(cylinder(), breakable(0.04));
   late.step();
   EXPECT_THROW(start_statically(late, 1e-5), std::logic_error);
 }
 
 TEST(static_press, asks_for_bonds_and_a_strain) {
-  PlatenTest problem(small_cylinder(), elastic(0, unbreakable_bond()));
+  PlatenTest problem(cylinder(), pressed_by(0, unbreakable_bond()));
   EXPECT_THROW(press_statically(problem, 0), NumericsStopped);
 }
 

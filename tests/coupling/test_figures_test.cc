@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "tests/coupling/elastic_loadings.h"
+#include "tests/coupling/set_ups.h"
 
 namespace platen::coupling {
 namespace {
@@ -40,11 +40,8 @@ TEST(test_figures, pressing_all_sides_alike_consolidates) {
   for (const double axial : {5e6, 6e6}) {
     settings.loading.stages.clear(), settings.loading.cell->alone = false;
     StageSettings &stage = settings.loading.stages.emplace_back();
-    SideAsk ask;
-    ask.side = SideGroup::lateral, ask.ask = SideAsk::Ask::pressure, ask.value = 5e6;
-    stage.asks = {ask};
-    ask.side = SideGroup::axial, ask.ask = SideAsk::Ask::stress, ask.value = axial;
-    stage.asks.push_back(ask);
+    stage.asks = {asked_of(SideGroup::lateral, SideAsk::Ask::pressure, 5e6),
+                  asked_of(SideGroup::axial, SideAsk::Ask::stress, axial)};
     stage.until = {{Until::Reached::settled}};
     EXPECT_EQ(PlatenTest(cylinder(), settings).program().stage(0).is_consolidation(), axial == 5e6);
   }

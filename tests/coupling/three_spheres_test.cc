@@ -42,7 +42,7 @@ double strain_ratio(double stiffness_ratio, bool rotation, double friction) {
 
   const double mass = model.particles.mass[0], dt = 0.1 * std::sqrt(mass / (900 * axial));
   const double press = 1e-4 * r; // small: the solution is linear
-  const int ramp = 40000, settle = 120000;
+  const int ramp = 20000, settle = 60000;
   for (int n = 0; n < ramp + settle; ++n) {
     model.begin_step(dt);
     top.set_velocity({0, 0, n < ramp ? -press / (ramp * dt) : 0.0});

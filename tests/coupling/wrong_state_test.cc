@@ -6,11 +6,10 @@
 #include <cstring>
 #include <functional>
 #include <limits>
-#include <set>
 #include <string>
 #include <vector>
 
-#include "tests/coupling/elastic_loadings.h"
+#include "tests/coupling/set_ups.h"
 #include "tests/same_state.h"
 
 namespace platen::coupling {
@@ -18,16 +17,14 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// Brittle, between platens that rub: bonds break, contacts close, slide and roll within some hundred steps.
-PlatenTestSettings crushing() {
+// Bonds break, contacts close, slide and roll within some hundred steps.
+PlatenTestSettings rolling() {
   PlatenTestSettings s = smooth();
-  s.model.bond = dem::ParallelBond::Parameters{0.4, 2e6, 6e6, 0.7853981633974483, 0.3};
-  s.model.contact = dem::ContactSettings{};
+  make_brittle(s);
+  s.model.contact->damping = dem::ContactSettings{}.damping;
   s.model.contact->tangential = dem::TangentialContact::coulomb_with_rolling;
   s.model.contact->rolling_friction = 0.1;
-  s.model.local_damping = 0.3;
   s.model.bond_dashpot = 0.05;
-  s.platens.top = s.platens.bottom = {0.3, 0.2};
   s.seat = true;
   s.loading.rate = 1;
   s.loading.ramp = 5e-6;
@@ -35,7 +32,7 @@ PlatenTestSettings crushing() {
 }
 
 PlatenTestSettings of_hertz() {
-  PlatenTestSettings s = crushing();
+  PlatenTestSettings s = rolling();
   s.model.contact->normal = dem::NormalContact::hertz;
   s.model.contact->tangential = dem::TangentialContact::coulomb;
   s.model.bond_dashpot = 0;
@@ -50,7 +47,7 @@ PlatenTestSettings of_hertz() {
 }
 
 PlatenTestSettings softening() {
-  PlatenTestSettings s = crushing();
+  PlatenTestSettings s = rolling();
   dem::ElastoDamagePlastic::Parameters bond;
   bond.tensile_strength = 2e6, bond.shear_strength = 6e6;
   s.model.bond = bond;
@@ -60,7 +57,7 @@ PlatenTestSettings softening() {
 }
 
 PlatenTestSettings yielding() {
-  PlatenTestSettings s = crushing();
+  PlatenTestSettings s = rolling();
   dem::YieldingParallelBond::Parameters bond;
   bond.stiffness_ratio = 0.4, bond.tensile_strength = 2e6, bond.shear_strength = 6e6;
   bond.compression_limits = {2e6, 4e6, 8e6}, bond.compression_slopes = {2, 4, 8};
@@ -69,7 +66,7 @@ PlatenTestSettings yielding() {
 }
 
 PlatenTestSettings beams() {
-  PlatenTestSettings s = crushing();
+  PlatenTestSettings s = rolling();
   dem::CohesiveBeam::Parameters bond;
   bond.tensile_strength = 2e6, bond.shear_strength = 6e6;
   s.model.bond = bond;
@@ -78,21 +75,15 @@ PlatenTestSettings beams() {
   return s;
 }
 
-SideAsk asked(SideGroup side, SideAsk::Ask what, double value) {
-  SideAsk ask;
-  ask.side = side, ask.ask = what, ask.value = value;
-  return ask;
-}
-
 PlatenTestSettings staged() {
   PlatenTestSettings s = hydrostatic(false);
   s.loading.cell->alone = false;
   StageSettings press, widen;
-  press.asks = {asked(SideGroup::lateral, SideAsk::Ask::pressure, 1e6),
-                asked(SideGroup::axial, SideAsk::Ask::stress, 1e6)};
+  press.asks = {asked_of(SideGroup::lateral, SideAsk::Ask::pressure, 1e6),
+                asked_of(SideGroup::axial, SideAsk::Ask::stress, 1e6)};
   press.ramp = 2e-5;
   press.until = {{Until::Reached::time, 4e-5}};
-  widen.asks = {asked(SideGroup::axial, SideAsk::Ask::circumferential, 1)};
+  widen.asks = {asked_of(SideGroup::axial, SideAsk::Ask::circumferential, 1)};
   widen.until = {{Until::Reached::circumferential_strain, 0.1}, {Until::Reached::share_of_peak, 0.5}};
   s.loading.stages = {press, widen};
   return s;
@@ -105,7 +96,7 @@ struct Kind {
 };
 const std::vector<Kind> &kinds() {
   static const std::vector<Kind> all{
-      {"bonds that break", crushing, 900},
+      {"bonds that break", rolling, 900},
       {"Hertz, two phases, a soft machine", of_hertz, 900},
       {"interfaces, a seat", softening, 900},
       {"yield", yielding, 900},
@@ -115,8 +106,8 @@ const std::vector<Kind> &kinds() {
       {"a sleeve", [] { return hydrostatic(true); }, 303},
       {"a wall", walled, 300},
       {"a stress that is held", [] { return held_at(5e6); }, 300},
-      {"elastic platens", [] { return elastic(crushing(), ElasticMotion::explicit_steps, steel); }, 300},
-      {"static platens", [] { return elastic(crushing(), ElasticMotion::quasi_static, steel); }, 310},
+      {"elastic platens", [] { return elastic(rolling(), ElasticMotion::explicit_steps, steel); }, 300},
+      {"static platens", [] { return elastic(rolling(), ElasticMotion::quasi_static, steel); }, 310},
   };
   return all;
 }
@@ -147,34 +138,39 @@ bool may_be_nan(const std::string &name) {
                        "/unbalanced", "/break_time"}); // of a bond that holds
 }
 
-// The state with one number in place of that at `place` in the block.
-State with_number(const State &state, const std::string &block_name, std::size_t place, double value) {
-  const StoredBlock block = *state.find(block_name);
-  std::vector<char> bytes(block.rows * block.type.bytes_per_row());
-  state.read(block_name, bytes.data());
-  char *at = bytes.data() + place * block.type.bytes;
-  const auto put = [&](auto number) { std::memcpy(at, &number, sizeof number); };
-  if (block.type.kind == BlockType::Kind::floating)
-    put(value);
-  else if (block.type.bytes == 1)
-    put(static_cast<std::int8_t>(value));
-  else if (block.type.bytes == 4)
-    put(static_cast<std::int32_t>(value));
-  else
-    put(static_cast<std::int64_t>(value));
-  State other;
-  for (const std::string &name : state.names()) {
-    const StoredBlock one = *state.find(name);
-    std::vector<char> own(one.rows * one.type.bytes_per_row());
-    if (!own.empty()) state.read(name, own.data());
-    other.add(name, one.type, name == block_name ? bytes.data() : own.data(), one.rows);
+// A state with one number in place of that at `place` in the block.
+class WithNumber : public StateSource {
+public:
+  WithNumber(const State &of, const std::string &block, std::size_t place, double value)
+      : of_(of), block_(block), stored_(*of.find(block)), place_(place), value_(value) {}
+  std::vector<std::string> names() const override { return of_.names(); }
+  std::optional<StoredBlock> find(const std::string &name) const override { return of_.find(name); }
+  void read(const std::string &name, void *data) const override {
+    of_.read(name, data);
+    if (name != block_) return;
+    char *at = static_cast<char *>(data) + place_ * stored_.type.bytes;
+    const auto put = [&](auto number) { std::memcpy(at, &number, sizeof number); };
+    if (stored_.type.kind == BlockType::Kind::floating)
+      put(value_);
+    else if (stored_.type.bytes == 1)
+      put(static_cast<std::int8_t>(value_));
+    else if (stored_.type.bytes == 4)
+      put(static_cast<std::int32_t>(value_));
+    else
+      put(static_cast<std::int64_t>(value_));
   }
-  return other;
-}
 
-std::string refusal(PlatenTest &test, const State &state) {
+private:
+  const State &of_;
+  std::string block_;
+  StoredBlock stored_;
+  std::size_t place_;
+  double value_;
+};
+
+std::string told_of(PlatenTest &test, const StateSource &state) {
   try {
-    set_state(test, state);
+    read_parts(state, [&](Archive &archive) { archive.part("state", test); });
   } catch (const StateError &e) {
     return e.what();
   }
@@ -193,20 +189,20 @@ void make_steps(PlatenTest &test) {
 
 TEST(wrong_state, one_of_another_specimen_is_refused_with_both_sizes_and_changes_nothing) {
   const dem::Specimen other = small_cylinder(6);
-  PlatenTest one(cylinder(), crushing()), two(other, crushing());
+  PlatenTest one(cylinder(), rolling()), two(other, rolling());
   advance_to(one, 300), advance_to(two, 200);
   const std::size_t of_one = one.model.particles.size(), of_two = two.model.particles.size();
   ASSERT_NE(of_one, of_two);
-  PlatenTest twin(cylinder(), crushing());
+  PlatenTest twin(cylinder(), rolling());
   advance_to(twin, 300);
   const State kept = state_of(one);
   const auto told = [](std::size_t stored, std::size_t needed) {
     return "table \"state/specimen/particles\" has " + std::to_string(stored) + " rows, " +
            std::to_string(needed) + " are needed";
   };
-  EXPECT_EQ(refusal(one, state_of(two)), told(of_two, of_one));
+  EXPECT_EQ(told_of(one, state_of(two)), told(of_two, of_one));
   EXPECT_TRUE(same_state(kept, one));
-  EXPECT_EQ(refusal(two, kept), told(of_one, of_two));
+  EXPECT_EQ(told_of(two, kept), told(of_one, of_two));
   // Not in its state alone: both go on as if nothing had been asked.
   EXPECT_EQ(one.energy().contacts, twin.energy().contacts);
   advance_to(one, 350), advance_to(twin, 350);
@@ -217,10 +213,10 @@ TEST(wrong_state, one_of_another_specimen_is_refused_with_both_sizes_and_changes
 TEST(wrong_state, no_number_of_any_block_is_believed_that_cannot_be) {
   std::size_t blocks = 0, refused = 0, taken = 0;
   for (const Kind &setup : kinds()) {
-    PlatenTest run(cylinder(), setup.settings()), other(cylinder(), setup.settings());
+    PlatenTest run(thin_cylinder(), setup.settings()), other(thin_cylinder(), setup.settings());
     advance_to(run, setup.steps);
     const State good = state_of(run);
-    ASSERT_EQ(refusal(other, good), "") << setup.name;
+    ASSERT_EQ(told_of(other, good), "") << setup.name;
     for (const std::string &name : good.names()) {
       const StoredBlock block = *good.find(name);
       if (block.type.kind == BlockType::Kind::text || block.rows == 0) continue;
@@ -232,8 +228,7 @@ TEST(wrong_state, no_number_of_any_block_is_believed_that_cannot_be) {
       for (std::size_t k = 0; k < std::min<std::size_t>(block.type.numbers, 4); ++k)
         for (const double value : values) {
           SCOPED_TRACE(std::string(setup.name) + ": " + name + " = " + std::to_string(value));
-          const std::string why =
-              refusal(other, with_number(good, name, row * block.type.numbers + k, value));
+          const std::string why = told_of(other, WithNumber(good, name, row * block.type.numbers + k, value));
           const bool must = (floating && !std::isfinite(value) && !may_be_nan(name)) || std::isinf(value) ||
                             value == 1e300 || (is_row_number(name) && value != 0) ||
                             (is_positive(name) && value <= 0) ||
@@ -242,19 +237,15 @@ TEST(wrong_state, no_number_of_any_block_is_believed_that_cannot_be) {
           // A version is that of its part.
           const std::string by = ends_with(name, "/version") ? name.substr(0, name.rfind('/')) : name;
           EXPECT_TRUE(!must || why.find(by) != std::string::npos) << why;
-          if (why.empty()) {
-            ++taken;
-            make_steps(other);
-            ASSERT_EQ(refusal(other, good), "");
-          } else {
-            ++refused;
-            // Whether rubber is inside out is found when it is read.
-            if (why.find("inside out") != std::string::npos)
-              ASSERT_EQ(refusal(other, good), "");
-            else
-              ASSERT_TRUE(k > 0 || same_state(good, other));
-          }
+          ++(why.empty() ? taken : refused);
+          // Whether rubber is inside out is found when it is read.
+          const bool was_read = why.empty() || why.find("inside out") != std::string::npos;
+          if (!was_read) continue;
+          if (why.empty()) make_steps(other);
+          ASSERT_EQ(told_of(other, good), "");
         }
+      // Those that were refused have changed nothing since the last that was taken.
+      ASSERT_TRUE(same_state(good, other)) << setup.name << ": " << name;
     }
     // Whatever was tried in between.
     advance_to(run, setup.steps + 20), advance_to(other, setup.steps + 20);
@@ -269,12 +260,12 @@ TEST(wrong_state, no_number_of_any_block_is_believed_that_cannot_be) {
 
 // Each of these is a number that its own column may hold, beside others that it does not go with.
 TEST(wrong_state, rows_that_do_not_go_together_are_refused) {
-  PlatenTest run(cylinder(), crushing()), other(cylinder(), crushing());
+  PlatenTest run(cylinder(), rolling()), other(cylinder(), rolling());
   advance_to(run, 900);
   const State good = state_of(run);
   ASSERT_GT(run.model.broken_tension, 0);
   const auto told = [&](const std::string &name, std::size_t row, double value) {
-    return refusal(other, with_number(good, "state/" + name, row, value));
+    return told_of(other, WithNumber(good, "state/" + name, row, value));
   };
   const std::string bonds = "specimen/bonds/", contacts = "specimen/contacts/";
   const auto ints = [&](const std::string &name) { return rows_of<int>(good, "state/" + name); };
@@ -300,7 +291,7 @@ TEST(wrong_state, rows_that_do_not_go_together_are_refused) {
             "\"state/specimen/particles/mass\", row 7: -1. Allowed: finite, > 0 kg.");
   EXPECT_EQ(told("specimen/particles/orientation", 28, 1e6),
             "\"state/specimen/particles/orientation\", row 7: length 1e6. Allowed: a row of length 1.");
-  EXPECT_TRUE(same_state(PlatenTest(cylinder(), crushing()), other)); // all of them left it alone
+  EXPECT_TRUE(same_state(PlatenTest(cylinder(), rolling()), other)); // all of them left it alone
 }
 
 } // namespace

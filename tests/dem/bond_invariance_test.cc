@@ -122,8 +122,7 @@ Course course(const std::vector<int> &order, const Quaternion &turn, int steps) 
   }
   Course c;
   c.position.resize(p.size()), c.start.resize(p.size());
-  for (int s = 0; s < steps; ++s)
-    step(model, 1e-7);
+  step(model, 1e-7, steps);
   EXPECT_EQ(model.broken_tension + model.broken_shear, 0);
   for (std::size_t k = 0; k < p.size(); ++k) {
     const std::size_t id = static_cast<std::size_t>(order[static_cast<std::size_t>(p.id[k])]);

@@ -25,12 +25,10 @@ Cylinder::Cylinder()
     : shape(packed().shape), particles(packed(), 2400, true), bonds(particles, layout(), *bonded().bond) {}
 
 void Cylinder::cut_rows(const std::function<int(std::size_t row)> &label) {
-  std::vector<BondBreak> breaks;
-  for (std::size_t k = 0; k < bonds.size(); ++k) {
+  break_rows_where(bonds, particles, [&](std::size_t k) {
     const int one = label(bonds.first[k]), other = label(bonds.second[k]);
-    if (one != other || one == crumbs) breaks.push_back({static_cast<int>(k), BondState::broken_in_tension});
-  }
-  bonds.break_rows(breaks, particles, 0);
+    return one != other || one == crumbs;
+  });
   bonds.compact();
 }
 

@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 
-#include "base/parallel.h"
 #include "base/random.h"
 #include "tests/dem/dual.h"
 #include "tests/dem/examples.h"
@@ -36,16 +35,6 @@ template <class Real>
 BondGeometry<Real> along(const Vector3 &d) {
   return {{d.x, d.y, d.z}, norm(d), .5, young / norm(d), beam_radius};
 }
-Vector3 vec(const Triple<double> &a) {
-  return {a.x, a.y, a.z};
-}
-Triple<double> vec(const Vector3 &a) {
-  return {a.x, a.y, a.z};
-}
-Rotation<double> turn(const Quaternion &q) {
-  return {q.w, q.x, q.y, q.z};
-}
-
 // Of the present motion, in the order force and torque on i, force and torque on j.
 std::array<Dual, 12> actions(const BondResponse<Dual> &r) {
   const Dual zero = 0;
@@ -141,7 +130,7 @@ Bent bent(Random &random, double angle) {
   return b;
 }
 BondResponse<double> respond(const CohesiveBeam &law, const Bent &b) {
-  return law(along<double>(b.reference), {vec(b.d), turn(b.qi), turn(b.qj)});
+  return law(along<double>(b.reference), {triple(b.d), rotation(b.qi), rotation(b.qj)});
 }
 
 // Largest difference from the paper's beam over its own largest force and torque.
@@ -152,10 +141,10 @@ double error_against_paper(double angle) {
     const Bent b = bent(random, angle);
     const BondResponse<double> r = respond(beam(), b);
     const Ends wanted = beam_of_finite_rotations(b.reference, b.d, b.qi, b.qj);
-    worst = std::max(worst, norm(vec(r.force) - wanted.force) / norm(wanted.force));
+    worst = std::max(worst, norm(vector(r.force) - wanted.force) / norm(wanted.force));
     const double torque = std::max(norm(wanted.torque_i), norm(wanted.torque_j));
-    worst = std::max({worst, norm(vec(r.torque_i) - wanted.torque_i) / torque,
-                      norm(vec(r.torque_j) - wanted.torque_j) / torque});
+    worst = std::max({worst, norm(vector(r.torque_i) - wanted.torque_i) / torque,
+                      norm(vector(r.torque_j) - wanted.torque_j) / torque});
   }
   return worst;
 }
@@ -166,51 +155,6 @@ TEST(cohesive_beam, is_the_beam_of_the_paper_to_first_order_in_rotation) {
   EXPECT_LT(at_hundredth, 5e-2);
   EXPECT_LT(at_thousandth, .2 * at_hundredth);
   EXPECT_LT(at_ten_thousandth, .2 * at_thousandth);
-}
-
-TEST(cohesive_beam, stores_nothing_when_it_is_turned_rigidly) {
-  Random random(5);
-  for (int trial = 0; trial < 100; ++trial) {
-    const Vector3 reference = length * random.direction();
-    const Quaternion q = rotation_quaternion(random.uniform(0, 6) * random.direction());
-    const BondResponse<double> r = respond(
-        beam(), {reference, rotate(q, reference), q, trial % 2 ? q : Quaternion{-q.w, -q.x, -q.y, -q.z}});
-    EXPECT_LT(norm(vec(r.force)), 1e-12 * axial * length);
-    EXPECT_LT(norm(vec(r.torque_i)), 1e-12 * axial * length * length);
-    EXPECT_LT(norm(vec(r.torque_j)), 1e-12 * axial * length * length);
-    EXPECT_LT(r.energy, 1e-24 * axial * length * length);
-  }
-}
-
-TEST(cohesive_beam, balances_itself_however_far_it_is_bent) {
-  Random random(7);
-  for (int trial = 0; trial < 300; ++trial) {
-    const Bent b = bent(random, random.uniform(0, .8));
-    const BondResponse<double> r = respond(beam(), b);
-    const Vector3 f = vec(r.force), ti = vec(r.torque_i), tj = vec(r.torque_j);
-    EXPECT_LT(norm(ti + tj - cross(b.d, f)), 1e-12 * (norm(ti) + norm(tj) + norm(b.d) * norm(f)));
-  }
-}
-
-// The work of a closed cycle is what a potential gives: none.
-TEST(cohesive_beam, force_and_torques_are_the_slope_of_the_energy) {
-  Random random(11);
-  for (int trial = 0; trial < 50; ++trial) {
-    Bent b = bent(random, .3);
-    const Vector3 u = length * random.direction(), wi = random.direction(), wj = random.direction();
-    const BondResponse<double> r = respond(beam(), b);
-    const double h = 1e-5;
-    const auto energy = [&](double s) {
-      Bent moved = b;
-      moved.d += s * u;
-      moved.qi = rotation_quaternion(s * wi) * b.qi;
-      moved.qj = rotation_quaternion(s * wj) * b.qj;
-      return respond(beam(), moved).energy;
-    };
-    const double slope = (energy(h) - energy(-h)) / (2 * h);
-    const double wanted = dot(vec(r.force), u) - dot(vec(r.torque_i), wi) - dot(vec(r.torque_j), wj);
-    EXPECT_NEAR(slope, wanted, 1e-7 * axial * length * length);
-  }
 }
 
 CohesiveBeam strong(double tensile, double shear, double beta = 1) {
@@ -237,8 +181,8 @@ TEST(cohesive_beam, pure_bending_strains_the_skin_alike_at_both_ends) {
                    forth = rotation_quaternion({0, 0, tiny / 2});
   for (const double beta : {1., .3}) {
     const double stress = young * beam_radius * tiny / length; // M r / I
-    const BondResponse<double> r = strong(stress, stress, beta)(along<double>({length, 0, 0}),
-                                                                {{length, 0, 0}, turn(back), turn(forth)});
+    const BondResponse<double> r = strong(stress, stress, beta)(
+        along<double>({length, 0, 0}), {{length, 0, 0}, rotation(back), rotation(forth)});
     EXPECT_NEAR(r.torque_i.z, bending * tiny, 1e-10 * bending * tiny);
     EXPECT_NEAR(r.torque_j.z, -bending * tiny, 1e-10 * bending * tiny);
     EXPECT_NEAR(r.tension_ratio, beta, 1e-10);
@@ -249,8 +193,9 @@ TEST(cohesive_beam, pure_bending_strains_the_skin_alike_at_both_ends) {
 
 TEST(cohesive_beam, torsion_shears_the_skin) {
   const double stress = young / (2 * (1 + poisson)) * beam_radius * tiny / length; // T r / I_o
-  const BondResponse<double> r = strong(stress, stress)(
-      along<double>({length, 0, 0}), {{length, 0, 0}, {1, 0, 0, 0}, turn(rotation_quaternion({tiny, 0, 0}))});
+  const BondResponse<double> r =
+      strong(stress, stress)(along<double>({length, 0, 0}),
+                             {{length, 0, 0}, {1, 0, 0, 0}, rotation(rotation_quaternion({tiny, 0, 0}))});
   EXPECT_NEAR(r.torque_i.x, twisting * tiny, 1e-10 * twisting * tiny);
   EXPECT_NEAR(r.shear_ratio, 1, 1e-10);
   EXPECT_NEAR(r.tension_ratio, 0, 1e-10);
@@ -264,7 +209,7 @@ TEST(cohesive_beam, a_cantilever_is_strained_most_where_it_is_clamped) {
   const double stress = load * length * beam_radius / inertia, shear = load / section;
   const CohesiveBeam law = strong(stress, shear);
   const BondResponse<double> r =
-      law(along<double>({length, 0, 0}), {{length, tip, 0}, {1, 0, 0, 0}, turn(slope)});
+      law(along<double>({length, 0, 0}), {{length, tip, 0}, {1, 0, 0, 0}, rotation(slope)});
   EXPECT_NEAR(r.force.y, load, 1e-10 * load);
   EXPECT_NEAR(r.torque_i.z, load * length, 1e-10 * load * length);
   EXPECT_NEAR(r.torque_j.z, 0, 1e-10 * load * length);
@@ -272,7 +217,7 @@ TEST(cohesive_beam, a_cantilever_is_strained_most_where_it_is_clamped) {
   EXPECT_NEAR(r.shear_ratio, 1, 1e-10);
   const BondResponse<double> other =
       law(along<double>({length, 0, 0}),
-          {{length, -tip, 0}, turn(rotation_quaternion({0, 0, -1.5 * tiny})), {1, 0, 0, 0}});
+          {{length, -tip, 0}, rotation(rotation_quaternion({0, 0, -1.5 * tiny})), {1, 0, 0, 0}});
   EXPECT_NEAR(other.torque_i.z, 0, 1e-10 * load * length);
   EXPECT_NEAR(other.tension_ratio, 1, 1e-6);
 }

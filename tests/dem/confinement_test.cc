@@ -12,12 +12,14 @@
 #include <set>
 
 #include "base/parallel.h"
-#include "dem/packing/advancing_front.h"
 #include "dem/packing/growth.h"
+#include "tests/dem/examples.h"
 #include "tests/same_state.h"
 
 namespace platen::dem {
 namespace {
+
+using examples::break_rows_where;
 
 BondLayout layout() {
   BondLayout l;
@@ -185,12 +187,10 @@ TEST(confinement, what_has_come_loose_carries_nothing_and_bares_what_lies_beneat
   std::set<int> skin;
   for (std::size_t k = 0; k < c.size(); ++k)
     skin.insert(c.particle(k));
-  std::vector<BondBreak> breaks;
-  for (std::size_t k = 0; k < body.bonds.size(); ++k)
-    if (body.bonds.first[k] == loose || body.bonds.second[k] == loose)
-      breaks.push_back({static_cast<int>(k), BondState::broken_in_tension});
-  ASSERT_FALSE(breaks.empty());
-  body.bonds.break_rows(breaks, body.particles, 0.0);
+  ASSERT_GT(break_rows_where(
+                body.bonds, body.particles,
+                [&](std::size_t k) { return body.bonds.first[k] == loose || body.bonds.second[k] == loose; }),
+            0u);
   press(c, body, 1e6, 0, 0, false);
   EXPECT_GT(norm(body.particles.force[static_cast<std::size_t>(loose)]), 0)
       << "areas have not been updated yet";
@@ -207,11 +207,8 @@ TEST(confinement, what_has_come_loose_carries_nothing_and_bares_what_lies_beneat
 }
 
 void crumble(Body &body, const std::function<bool(int)> &loose) {
-  std::vector<BondBreak> breaks;
-  for (std::size_t k = 0; k < body.bonds.size(); ++k)
-    if (loose(body.bonds.first[k]) || loose(body.bonds.second[k]))
-      breaks.push_back({static_cast<int>(k), BondState::broken_in_tension});
-  body.bonds.break_rows(breaks, body.particles, 0.0);
+  break_rows_where(body.bonds, body.particles,
+                   [&](std::size_t k) { return loose(body.bonds.first[k]) || loose(body.bonds.second[k]); });
 }
 
 // Pa, of the forces towards the axis over the nominal area of the mantle.
@@ -281,11 +278,9 @@ TEST(confinement, a_piece_is_pressed_from_a_twentieth_of_the_spheres_on) {
     std::sort(by_distance.begin(), by_distance.end(), [&](int a, int b) { return far(a) < far(b); });
     const auto count = static_cast<std::ptrdiff_t>(share * static_cast<double>(by_distance.size()));
     const std::set<int> lump(by_distance.begin(), by_distance.begin() + count);
-    std::vector<BondBreak> breaks;
-    for (std::size_t k = 0; k < body.bonds.size(); ++k)
-      if (lump.count(body.bonds.first[k]) != lump.count(body.bonds.second[k]))
-        breaks.push_back({static_cast<int>(k), BondState::broken_in_tension});
-    body.bonds.break_rows(breaks, body.particles, 0.0);
+    break_rows_where(body.bonds, body.particles, [&](std::size_t k) {
+      return lump.count(body.bonds.first[k]) != lump.count(body.bonds.second[k]);
+    });
     press(c, body, 3e6, 0, 0, true);
     int pressed = 0;
     for (std::size_t k = 0; k < c.size(); ++k)
@@ -312,11 +307,9 @@ TEST(confinement, two_large_pieces_are_both_pressed_and_pushed_nowhere) {
       const auto right = [&](int i) {
         return body.particles.reference_position[static_cast<std::size_t>(i)].x > 0;
       };
-      std::vector<BondBreak> breaks;
-      for (std::size_t k = 0; k < body.bonds.size(); ++k)
-        if (right(body.bonds.first[k]) != right(body.bonds.second[k]))
-          breaks.push_back({static_cast<int>(k), BondState::broken_in_tension});
-      body.bonds.break_rows(breaks, body.particles, 0.0);
+      break_rows_where(body.bonds, body.particles, [&](std::size_t k) {
+        return right(body.bonds.first[k]) != right(body.bonds.second[k]);
+      });
       for (std::size_t i = 0; i < body.particles.size(); ++i)
         body.particles.position[i].x += (right(static_cast<int>(i)) ? .5 : -.5) * opening;
       const double p = 1e6;

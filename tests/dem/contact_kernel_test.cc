@@ -14,6 +14,8 @@
 #include "dem/model.h"
 #include "dem/packing/specimen.h"
 
+#include "tests/dem/examples.h"
+
 namespace platen::dem {
 namespace {
 
@@ -134,8 +136,7 @@ TEST(ContactKernel, gives_the_same_bits_with_every_instruction_set) {
             settings.contact->stiffness = {Stiffness::Kind::absolute, 1e6};
             settings.instruction_set = InstructionSet::baseline;
             const std::vector<char> expected = collisions(settings);
-            for (const InstructionSet set : {InstructionSet::avx2, InstructionSet::avx512}) {
-              if (set > best_instruction_set()) continue;
+            for (const InstructionSet set : instruction_sets_here()) {
               settings.instruction_set = set;
               EXPECT_TRUE(collisions(settings) == expected)
                   << name(set) << ": the bits differ; " << word(normal) << ", tangential "

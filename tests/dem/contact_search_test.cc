@@ -55,8 +55,7 @@ TEST(contact_search, bonded_pairs_do_not_touch_until_their_bond_breaks) {
   Model model(row(1, {1, 0, 0}), breakable());
   Particles &p = model.particles;
   p.velocity[1].x = -1;
-  for (int s = 0; s < 5; ++s)
-    step(model, 1e-8);
+  step(model, 1e-8, 5);
   EXPECT_EQ(model.contacts->touching_count(), 0u);
   p.position[1] += {-.05 * radius, .1 * radius, 0}; // far beyond the shear strength
   step(model, 1e-8);

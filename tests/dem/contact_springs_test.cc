@@ -14,6 +14,16 @@ using namespace examples;
 
 constexpr double young = 70e9, poisson = .25, other = 2.5 * radius;
 
+// Moves one of the spheres by hand, all at rest before and after.
+void move_by(Model &model, std::size_t i, const Vector3 &by) {
+  Particles &p = model.particles;
+  for (std::size_t k = 0; k < p.size(); ++k)
+    p.velocity[k] = p.force[k] = (*p.torque)[k] = (*p.angular_velocity)[k] = {};
+  p.velocity[i] = by;
+  model.begin_step(1);
+  model.compute_forces(1);
+}
+
 // A grain pressed on a larger one, the second moved by hand, at rest between moves.
 struct Grains {
   Model model;
@@ -33,16 +43,14 @@ struct Grains {
     s.contact->friction = 5; // nothing slips
     return s;
   }
-  void move(const Vector3 &by) {
-    Particles &p = model.particles;
-    for (std::size_t i = 0; i < 2; ++i) {
-      p.velocity[i] = p.force[i] = {};
-      if (p.has_rotation()) (*p.angular_velocity)[i] = (*p.torque)[i] = {};
-    }
-    p.velocity[1] = by;
-    model.begin_step(1);
-    model.compute_forces(1);
+  static ModelSettings of(NormalContact normal) {
+    ModelSettings s = hertz();
+    s.contact->normal = normal;
+    s.contact->stiffness = {Stiffness::Kind::absolute, 1e7};
+    s.contact->damping = 0;
+    return s;
   }
+  void move(const Vector3 &by) { move_by(model, 1, by); }
   Vector3 spring() const { return (*model.contacts->spring)[0]; }
   double stiffness() const { return (*model.contacts->tangential_stiffness)[0]; }
 };
@@ -98,10 +106,7 @@ TEST(contact_springs, hertz_springs_that_soften_while_they_shear_close_the_balan
 // Parted, a contact forgets: what its springs held is lost, and nothing of it acts when they meet again.
 TEST(contact_springs, a_contact_that_opens_loses_what_it_held) {
   for (const NormalContact normal : {NormalContact::linear, NormalContact::hertz}) {
-    ModelSettings settings = Grains::hertz();
-    settings.contact->normal = normal;
-    settings.contact->stiffness = {Stiffness::Kind::absolute, 1e7};
-    settings.contact->damping = 0;
+    const ModelSettings settings = Grains::of(normal);
     Grains grains(settings);
     const Contacts &c = *grains.model.contacts;
     const double pressed = 1e-3 * radius;
@@ -200,26 +205,15 @@ TEST(contact_springs, a_stiff_contact_holds_what_the_bond_held) {
 // Two grains that hold by friction do not notice that a third has come near.
 TEST(contact_springs, a_new_pair_leaves_those_that_are_there_alone) {
   for (const NormalContact normal : {NormalContact::linear, NormalContact::hertz}) {
-    ModelSettings settings = Grains::hertz();
-    settings.contact->normal = normal;
-    settings.contact->stiffness = {Stiffness::Kind::absolute, 1e7};
-    settings.contact->damping = 0;
+    const ModelSettings settings = Grains::of(normal);
     Model model(spheres({{0, 0, 0}, {2 * radius, 0, 0}, {0, 9 * radius, 0}}), settings);
-    Particles &p = model.particles;
-    const auto move = [&](std::size_t i, const Vector3 &by) {
-      for (std::size_t k = 0; k < p.size(); ++k)
-        p.velocity[k] = p.force[k] = (*p.torque)[k] = (*p.angular_velocity)[k] = {};
-      p.velocity[i] = by;
-      model.begin_step(1);
-      model.compute_forces(1);
-    };
-    move(1, {-1e-3 * radius, 0, 0});
-    move(1, {0, 1e-6 * radius, 0});
+    move_by(model, 1, {-1e-3 * radius, 0, 0});
+    move_by(model, 1, {0, 1e-6 * radius, 0});
     ASSERT_EQ(model.contacts->table.size(), 1u);
     const Vector3 held = (*model.contacts->spring)[0];
     ASSERT_GT(norm(held), 0);
     for (int k = 0; k < 20; ++k)
-      move(2, {0, -.35 * radius, 0});
+      move_by(model, 2, {0, -.35 * radius, 0});
     ASSERT_GT(model.contacts->table.size(), 1u);
     EXPECT_LT(norm((*model.contacts->spring)[0] - held), 1e-9 * norm(held));
     EXPECT_LT(std::abs(model.contacts->friction_work), 1e-6 * model.contacts->energy());

@@ -2,63 +2,27 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <vector>
 
 #include "base/pi.h"
-#include "dem/laws/elasto_damage_plastic.h"
+
+#include "tests/dem/one_bond.h"
 
 namespace platen::dem {
 namespace {
 
-// Concrete of Onate et al. 2015, table 5.
-ElastoDamagePlastic::Parameters concrete() {
-  ElastoDamagePlastic::Parameters p;
-  p.poisson_ratio = 0.2;
-  p.tensile_strength = 5e6;
-  p.shear_strength = 16e6;
-  p.friction_static = 0.9;
-  p.friction_dynamic = 0.25;
-  p.softening_tension = 0.2;
-  p.softening_shear = 1.0;
-  p.compression_limits = {20e6, 45e6, 70e6};
-  p.compression_slopes = {3, 12, 22};
-  return p;
-}
+using namespace examples;
 
-constexpr double modulus = 28e9, length = 0.01, radius = 0.004; // Pa, m, m
+constexpr double young = 28e9, length = 0.01, bond_radius = 0.004; // Pa, m, m
 
-// Two spheres along z, the second one prescribed.
-struct Interface {
-  ElastoDamagePlastic law;
-  InterfaceGeometry<double> geometry{length, 0.5, modulus / length, pi *radius *radius};
-  InterfaceState<double> state{0, 0, 0, {0, 0, 0}, {0, 0, 0}, 0};
-  Triple<double> distance{0, 0, length};
-  InterfaceResponse<double> now;
-  double work = 0; // J, done on the pair, by the trapezoid: exact along straight lines
-
-  explicit Interface(const ElastoDamagePlastic::Parameters &p) : law{p} {
-    now = law.response(state, geometry, distance);
-  }
-  // The second sphere moves by this, in so many steps.
-  void move(const Triple<double> &by, int steps = 1) {
-    const Triple<double> part = scale(1.0 / steps, by);
-    for (int k = 0; k < steps; ++k) {
-      const Triple<double> before = now.force;
-      distance = distance + part;
-      now = law(state, geometry, {distance, part, part, 0});
-      work += 0.5 * dot(before + now.force, part);
-    }
-  }
-  double normal() const { return now.normal / geometry.area; } // Pa
-  double shear() const { return root(dot(now.shear, now.shear)) / geometry.area; }
-  double opening_limit() const {
-    return law.parameters.tensile_strength / geometry.normal_stiffness;
-  }                                                                                        // u^l, m
-  double shear_stiffness() const { return law.shear_ratio() * geometry.normal_stiffness; } // Pa/m
+struct Interface : OneBond<ElastoDamagePlastic> {
+  explicit Interface(const ElastoDamagePlastic::Parameters &p) : OneBond(p, young, length, bond_radius) {}
+  void move(const Triple<double> &by, int steps = 1) { OneBond::move(by, {}, {}, steps); }
+  double opening_limit() const { return law.parameters.tensile_strength / geometry.normal_stiffness; } // m
+  double shear_stiffness() const { return law.shear_ratio() * geometry.normal_stiffness; }             // Pa/m
 };
 
 TEST(ElastoDamagePlastic, tension_softens_along_a_line_to_its_end) {
-  Interface pair(concrete());
+  Interface pair(interface_of_concrete());
   const double limit = pair.opening_limit();
   pair.move({0, 0, 0.5 * limit}, 7);
   EXPECT_NEAR(pair.normal(), 2.5e6, 2.5e-4);
@@ -74,7 +38,7 @@ TEST(ElastoDamagePlastic, tension_softens_along_a_line_to_its_end) {
 }
 
 TEST(ElastoDamagePlastic, tension_dissipates_the_area_under_its_curve) {
-  Interface pair(concrete());
+  Interface pair(interface_of_concrete());
   const double limit = pair.opening_limit(), whole = 0.5 * 5e6 * 1.2 * limit * pair.geometry.area;
   pair.move({0, 0, limit}, 10);
   pair.move({0, 0, 0.1 * limit}, 10);
@@ -87,14 +51,14 @@ TEST(ElastoDamagePlastic, tension_dissipates_the_area_under_its_curve) {
 
 // The softening triangle is the energy given, whatever the length of the pair.
 TEST(ElastoDamagePlastic, a_given_fracture_energy_does_not_depend_on_the_size_of_spheres) {
-  ElastoDamagePlastic::Parameters p = concrete();
+  ElastoDamagePlastic::Parameters p = interface_of_concrete();
   p.fracture_energy_tension = 2; // J/m^2
   p.fracture_energy_shear = 20;
   for (const double size : {0.5, 1.0, 2.0}) {
     Interface pair(p);
     pair.geometry.rest_length *= size;
     pair.geometry.normal_stiffness /= size;
-    pair.distance = {0, 0, size * length};
+    pair.pose.distance = {0, 0, size * length};
     const double limit = pair.opening_limit();
     pair.move({0, 0, limit});
     const double end = 2 * 2 / 5e6;
@@ -106,7 +70,7 @@ TEST(ElastoDamagePlastic, a_given_fracture_energy_does_not_depend_on_the_size_of
 }
 
 TEST(ElastoDamagePlastic, damaged_tension_unloads_through_the_origin_and_comes_back) {
-  Interface pair(concrete());
+  Interface pair(interface_of_concrete());
   const double limit = pair.opening_limit();
   pair.move({0, 0, 1.1 * limit}, 11); // D = 1/2
   const double top = pair.normal(), lost = pair.state.dissipated;
@@ -121,7 +85,7 @@ TEST(ElastoDamagePlastic, damaged_tension_unloads_through_the_origin_and_comes_b
 
 // Breakpoints of the paper's concrete: strains 7.14286e-4, 3.39286e-3, 1.410714e-2 at 20, 45, 70 MPa.
 TEST(ElastoDamagePlastic, closing_yields_along_three_branches) {
-  Interface pair(concrete());
+  Interface pair(interface_of_concrete());
   const double strains[] = {7.142857142857143e-4, 3.392857142857143e-3, 1.4107142857142857e-2};
   const double stresses[] = {20e6, 45e6, 70e6};
   double before = 0;
@@ -135,7 +99,7 @@ TEST(ElastoDamagePlastic, closing_yields_along_three_branches) {
 }
 
 TEST(ElastoDamagePlastic, closing_unloads_elastically_and_keeps_its_plastic_strain) {
-  Interface pair(concrete());
+  Interface pair(interface_of_concrete());
   const double kink = 20e6 / 28e9; // strain at which yield begins; steps end there, so that work is exact
   pair.move({0, 0, -kink * length}, 10);
   pair.move({0, 0, -(2e-3 - kink) * length}, 10);
@@ -157,7 +121,7 @@ TEST(ElastoDamagePlastic, closing_unloads_elastically_and_keeps_its_plastic_stra
 
 // Steps that end at the branches' ends, so that the trapezoid is exact.
 TEST(ElastoDamagePlastic, plastic_work_is_the_area_between_curve_and_unloading) {
-  Interface pair(concrete());
+  Interface pair(interface_of_concrete());
   double at = 0;
   for (const double strain : {7.142857142857143e-4, 3.392857142857143e-3, 1.4107142857142857e-2, 0.02}) {
     pair.move({0, 0, -(strain - at) * length});
@@ -168,13 +132,13 @@ TEST(ElastoDamagePlastic, plastic_work_is_the_area_between_curve_and_unloading) 
 }
 
 TEST(ElastoDamagePlastic, shear_strength_grows_with_compression_and_softens_to_friction) {
-  Interface pair(concrete());
+  Interface pair(interface_of_concrete());
   const double pressing = 10e6, strength = 16e6 + 0.9 * pressing, residual = 0.25 * pressing;
   pair.move({0, 0, -pressing / pair.geometry.normal_stiffness});
   // Across, at a distance that stays: by rotations.
   const auto slide = [&](double by, int steps) {
     for (int k = 0; k < steps; ++k)
-      pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, {by / steps, 0, 0}, 0});
+      pair.impose({0, 0, 0}, {by / steps, 0, 0}, 0);
   };
   const double limit = strength / pair.shear_stiffness();
   slide(0.5 * limit, 3);
@@ -193,8 +157,8 @@ TEST(ElastoDamagePlastic, shear_strength_grows_with_compression_and_softens_to_f
   slide(-3 * residual / pair.shear_stiffness(), 4);
   EXPECT_NEAR(pair.shear(), residual, 1e-9 * strength);
   // Failed in shear is failed in tension.
-  pair.distance = {0, 0, 1.0001 * length};
-  pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, {0, 0, 0}, 0});
+  pair.pose.distance = {0, 0, 1.0001 * length};
+  pair.impose({0, 0, 0}, {0, 0, 0}, 0);
   EXPECT_EQ(pair.normal(), 0);
   EXPECT_EQ(pair.shear(), 0);
 }
@@ -202,16 +166,15 @@ TEST(ElastoDamagePlastic, shear_strength_grows_with_compression_and_softens_to_f
 // Work, stored and dissipated energy of a sliding interface under constant pressure, by fine steps: the
 // trapezoid misses the kinks by steps^-2.
 TEST(ElastoDamagePlastic, the_energy_of_sliding_under_pressure_is_accounted_for) {
-  Interface pair(concrete());
+  Interface pair(interface_of_concrete());
   const double pressing = 10e6, strength = 16e6 + 0.9 * pressing;
   pair.move({0, 0, -pressing / pair.geometry.normal_stiffness});
   const double limit = strength / pair.shear_stiffness(), start = pair.now.energy;
   double work = 0;
   constexpr int steps = 40000;
   for (int k = 0; k < steps; ++k) {
-    const Triple<double> part{2.5 * limit / steps, 0, 0}, before = pair.now.shear;
-    pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, part, 0});
-    work += 0.5 * dot(before + pair.now.shear, part);
+    const Triple<double> part{2.5 * limit / steps, 0, 0};
+    work += pair.impose({0, 0, 0}, part, 0);
   }
   EXPECT_NEAR(work, pair.state.dissipated + pair.now.energy - start, 1e-6 * work);
 }
@@ -221,7 +184,7 @@ TEST(ElastoDamagePlastic, the_energy_of_sliding_under_pressure_is_accounted_for)
 TEST(ElastoDamagePlastic, what_a_step_takes_is_its_work_less_what_it_stores) {
   for (const FailureLine line : {FailureLine::uncoupled, FailureLine::coupled})
     for (const double normal : {5.5e6, -20e6}) { // Pa, up to here, without change of sign
-      ElastoDamagePlastic::Parameters p = concrete();
+      ElastoDamagePlastic::Parameters p = interface_of_concrete();
       p.failure_line = line;
       p.softening_tension = 1;
       p.compression_limits = p.compression_slopes = {}; // yield adds its own closed form
@@ -233,11 +196,9 @@ TEST(ElastoDamagePlastic, what_a_step_takes_is_its_work_less_what_it_stores) {
       for (int k = 0; k < 400; ++k) {
         const double to = reach * next();
         const Triple<double> part{.2 * limit * (next() - .4), .2 * limit * (next() - .4), to - at};
-        const Triple<double> before = pair.now.force;
         at = to;
-        pair.distance.z = length + at;
-        pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, part.z}, part, 0});
-        work += 0.5 * dot(before + pair.now.force, part);
+        pair.pose.distance.z = length + at;
+        work += pair.impose({0, 0, part.z}, part, 0);
         largest = std::fmax(largest, std::fmax(std::abs(work), pair.now.energy));
         ASSERT_NEAR(work, pair.state.dissipated + pair.now.energy, 1e-9 * largest) << normal << ", " << k;
       }
@@ -248,14 +209,13 @@ TEST(ElastoDamagePlastic, what_a_step_takes_is_its_work_less_what_it_stores) {
 
 // Without pressure the energy is the law's alone: 1/2 tau_f u^l (1 + delta).
 TEST(ElastoDamagePlastic, pure_shear_dissipates_the_area_under_its_curve) {
-  ElastoDamagePlastic::Parameters p = concrete();
+  ElastoDamagePlastic::Parameters p = interface_of_concrete();
   Interface pair(p);
   const double limit = 16e6 / pair.shear_stiffness(), whole = 0.5 * 16e6 * 2 * limit * pair.geometry.area;
   double work = 0;
   for (int k = 0; k < 20; ++k) {
-    const Triple<double> part{0, 0.1 * limit, 0}, before = pair.now.shear;
-    pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, part, 0});
-    work += 0.5 * dot(before + pair.now.shear, part);
+    const Triple<double> part{0, 0.1 * limit, 0};
+    work += pair.impose({0, 0, 0}, part, 0);
   }
   EXPECT_NEAR(pair.state.dissipated, whole, 1e-8 * whole);
   EXPECT_NEAR(work, whole, 1e-8 * whole);
@@ -265,7 +225,7 @@ TEST(ElastoDamagePlastic, pure_shear_dissipates_the_area_under_its_curve) {
 // shares add up to one; the energy of a straight path is its area.
 TEST(ElastoDamagePlastic, the_coupled_line_adds_up_tension_and_shear) {
   for (const FailureLine line : {FailureLine::uncoupled, FailureLine::coupled}) {
-    ElastoDamagePlastic::Parameters p = concrete();
+    ElastoDamagePlastic::Parameters p = interface_of_concrete();
     p.failure_line = line;
     p.softening_shear = p.softening_tension;
     Interface pair(p);
@@ -273,10 +233,9 @@ TEST(ElastoDamagePlastic, the_coupled_line_adds_up_tension_and_shear) {
     double work = 0;
     const auto go = [&](double share, int steps) { // along the line of equal shares
       for (int k = 0; k < steps; ++k) {
-        const Triple<double> part{share * us / steps, 0, share * un / steps}, before = pair.now.force;
-        pair.distance.z += part.z;
-        pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, part.z}, part, 0});
-        work += 0.5 * dot(before + pair.now.force, part);
+        const Triple<double> part{share * us / steps, 0, share * un / steps};
+        pair.pose.distance.z += part.z;
+        work += pair.impose({0, 0, part.z}, part, 0);
       }
     };
     const double begins = line == FailureLine::coupled ? 0.5 : 1.0;
@@ -298,11 +257,11 @@ TEST(ElastoDamagePlastic, the_coupled_line_adds_up_tension_and_shear) {
 TEST(ElastoDamagePlastic, the_coupled_line_is_the_uncoupled_one_in_compression) {
   double damage[2];
   for (int k = 0; k < 2; ++k) {
-    ElastoDamagePlastic::Parameters p = concrete();
+    ElastoDamagePlastic::Parameters p = interface_of_concrete();
     p.failure_line = k == 0 ? FailureLine::uncoupled : FailureLine::coupled;
     Interface pair(p);
     pair.move({0, 0, -1e-6});
-    pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, {2e-5, 0, 0}, 0});
+    pair.impose({0, 0, 0}, {2e-5, 0, 0}, 0);
     damage[k] = pair.state.shear_damage;
   }
   EXPECT_GT(damage[0], 0.1);
@@ -313,13 +272,13 @@ TEST(ElastoDamagePlastic, the_coupled_line_is_the_uncoupled_one_in_compression) 
 // not with what is round-off, nor with a pressure.
 TEST(ElastoDamagePlastic, the_coupled_line_begins_with_the_first_tension_that_is_no_round_off) {
   const auto tension_damage = [](double share) { // of the tensile strength, positive in tension
-    ElastoDamagePlastic::Parameters p = concrete();
+    ElastoDamagePlastic::Parameters p = interface_of_concrete();
     p.failure_line = FailureLine::coupled;
     Interface pair(p);
     const Triple<double> opened{0, 0, share * pair.opening_limit()};
-    pair.distance = pair.distance + opened;
+    pair.pose.distance = pair.pose.distance + opened;
     const double slip = 1.1 * 16e6 / pair.shear_stiffness();
-    pair.now = pair.law(pair.state, pair.geometry, {pair.distance, opened, {slip, 0, 0}, 0});
+    pair.impose(opened, {slip, 0, 0}, 0);
     EXPECT_GT(pair.state.shear_damage, 0.05) << share;
     return pair.state.tension_damage;
   };
@@ -330,24 +289,22 @@ TEST(ElastoDamagePlastic, the_coupled_line_begins_with_the_first_tension_that_is
 }
 
 TEST(ElastoDamagePlastic, history_turns_with_the_pair) {
-  Interface pair(concrete());
-  pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, {3e-6, 1e-6, 0}, 0});
+  Interface pair(interface_of_concrete());
+  pair.impose({0, 0, 0}, {3e-6, 1e-6, 0}, 0);
   const double before = pair.shear(), stored = pair.now.energy;
   // Two turns about x, then two about the pair's own axis: nothing slides.
   constexpr int steps = 4000;
   for (int k = 1; k <= steps; ++k) {
     const double angle = 4 * pi * k / steps;
-    const Triple<double> before_this = pair.distance;
-    pair.distance = {0, length * std::sin(angle), length * std::cos(angle)};
-    pair.now =
-        pair.law(pair.state, pair.geometry, {pair.distance, pair.distance - before_this, {0, 0, 0}, 0});
+    const Triple<double> before_this = pair.pose.distance;
+    pair.pose.distance = {0, length * std::sin(angle), length * std::cos(angle)};
+    pair.impose(pair.pose.distance - before_this, {0, 0, 0}, 0);
   }
   EXPECT_NEAR(pair.shear(), before, 1e-10 * before);
   EXPECT_NEAR(pair.now.energy, stored, 1e-10 * stored);
   EXPECT_NEAR(pair.state.shear.x, 3e-6, 1e-6 * 3e-6); // angle^3 a step
   for (int k = 1; k <= steps; ++k)
-    pair.now =
-        pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, {0, 0, 0}, 4 * pi / steps * length});
+    pair.impose({0, 0, 0}, {0, 0, 0}, 4 * pi / steps * length);
   EXPECT_NEAR(pair.shear(), before, 1e-10 * before);
   EXPECT_NEAR(pair.state.shear.x, 3e-6, 1e-5 * 3e-6); // angle^3/12 a step
 }
@@ -356,7 +313,7 @@ TEST(ElastoDamagePlastic, strengths_that_are_never_reached_do_no_work) {
   ElastoDamagePlastic::Parameters p;
   Interface pair(p);
   pair.move({0, 0, 1e-4}, 3);
-  pair.now = pair.law(pair.state, pair.geometry, {pair.distance, {0, 0, 0}, {1e-4, 0, 0}, 0});
+  pair.impose({0, 0, 0}, {1e-4, 0, 0}, 0);
   pair.move({0, 0, -3e-4}, 3);
   EXPECT_EQ(pair.state.dissipated, 0);
   EXPECT_EQ(pair.state.plastic, 0);
@@ -365,7 +322,7 @@ TEST(ElastoDamagePlastic, strengths_that_are_never_reached_do_no_work) {
 }
 
 TEST(ElastoDamagePlastic, a_strength_factor_scales_both_strengths_and_keeps_fracture_energies) {
-  ElastoDamagePlastic::Parameters p = concrete();
+  ElastoDamagePlastic::Parameters p = interface_of_concrete();
   p.fracture_energy_tension = 2;
   Interface pair(p);
   pair.geometry.strength_factor = 1.5;
@@ -379,7 +336,7 @@ TEST(ElastoDamagePlastic, a_strength_factor_scales_both_strengths_and_keeps_frac
   Interface other(p);
   other.geometry.strength_factor = 1.5;
   const double limit = 24e6 / other.shear_stiffness();
-  other.now = other.law(other.state, other.geometry, {other.distance, {0, 0, 0}, {1.25 * limit, 0, 0}, 0});
+  other.impose({0, 0, 0}, {1.25 * limit, 0, 0}, 0);
   EXPECT_NEAR(other.state.shear_damage, 0.25, 1e-9);
 }
 

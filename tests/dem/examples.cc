@@ -1,13 +1,10 @@
 #include "tests/dem/examples.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include "base/parallel.h"
 #include "base/random.h"
 #include "dem/packing/advancing_front.h"
 
@@ -79,6 +76,22 @@ ModelSettings interfaces() {
   return s;
 }
 
+ModelSettings yielding_bonds() {
+  ModelSettings s = bonded();
+  YieldingParallelBond::Parameters law;
+  law.stiffness_ratio = .25;
+  law.tensile_strength = law.shear_strength = 9e6;
+  law.friction_angle = std::atan(.5);
+  law.moment_contribution = .22;
+  law.compression_limits = {60e6, 110e6, 160e6}, law.compression_slopes = {3, 12, 22};
+  s.bond = law;
+  s.bond_layout.modulus = 48e9;
+  s.contact = ContactSettings{};
+  s.contact->friction = .35;
+  s.contact->damping = 0;
+  return s;
+}
+
 ModelSettings breakable() {
   ModelSettings s = bonded();
   parallel_bond(s).tensile_strength = tensile_strength;
@@ -96,7 +109,6 @@ std::size_t row_of(const Particles &particles, int id) {
 
 Loads bond_loads(const Particles &p, const Bonds &b) {
   Loads loads{std::vector<Vector3>(p.size()), std::vector<Vector3>(p.size())};
-  const auto vector = [](const Triple<double> &t) { return Vector3{t.x, t.y, t.z}; };
   for (std::size_t k = 0; k < b.size(); ++k) {
     const std::size_t i = static_cast<std::size_t>(b.first[k]), j = static_cast<std::size_t>(b.second[k]);
     const BondResponse<double> r = b.response(k, p);
@@ -150,68 +162,6 @@ void shake(Particles &p, double speed, double rate) {
     p.velocity[i] = speed * random.direction() - rate * (p.position[i] - centre);
     if (p.has_rotation()) (*p.angular_velocity)[i] = (speed / radius) * random.direction();
   }
-}
-
-std::vector<unsigned char> shaken_to_pieces(const ModelSettings &of, int threads) {
-  const ThreadLimit limit(threads);
-  ModelSettings settings = of;
-  settings.bond_dashpot = .1;
-  Model model(packed_box(26, 26, 26), settings);
-  shake(model.particles, 1.5);
-  const double dt = .5 * model.stable_step({}, 0).limit;
-  for (int s = 0; s < 120; ++s)
-    step(model, dt);
-  if (model.bonds->failed_rows <= 50 || model.bonds->blocks.blocks() <= 3)
-    throw std::logic_error("a shaken block with too few failed bonds, or too few blocks, to tell");
-  std::vector<unsigned char> bytes;
-  for (const Table *table : {&model.particles.table, &model.bonds->table, &model.bonds->records})
-    for (const auto &column : table->columns()) {
-      const auto *from = static_cast<const unsigned char *>(column->bytes());
-      bytes.insert(bytes.end(), from, from + column->size() * column->bytes_per_row());
-    }
-  return bytes;
-}
-
-EnergyLedger expect_balance_of_breaking_block(const ModelSettings &settings, double speed, double rate,
-                                              double coarse, double fine) {
-  EnergyLedger energy;
-  for (const int finer : {1, 4}) {
-    Model model(packed_box(16, 16, 16), settings);
-    shake(model.particles, speed, rate);
-    const double start = model.energy().stored(), dt = .25 / finer * model.stable_step({}, 0).limit;
-    for (int s = 0; s < 400 * finer; ++s)
-      step(model, dt);
-    const std::size_t failed = model.bonds->failed_rows;
-    EXPECT_GT(failed, 20u) << "at 1/" << 4 * finer << " of the largest step";
-    EXPECT_EQ(model.broken_tension + model.broken_shear, static_cast<long>(failed));
-    EXPECT_EQ(model.intact_bonds() + failed, model.bonds->initial_count());
-    energy = model.energy();
-    EXPECT_GT(energy.fracture, .01 * start);
-    EXPECT_GT(energy.friction, 0);
-    // Of random motion, whose kinetic energy at whole steps is off by the square of the step.
-    EXPECT_LT(std::abs(energy.residual() - start), (finer == 1 ? coarse : fine) * start)
-        << "of " << start << " J at 1/" << 4 * finer << " of the largest step";
-  }
-  return energy;
-}
-
-void expect_momentum_through_failure(const ModelSettings &settings, double speed) {
-  Model model(packed_box(14, 14, 14), settings);
-  shake(model.particles, speed);
-  const Momentum before = momentum(model.particles);
-  const double dt = .5 * model.stable_step({}, 0).limit;
-  for (int s = 0; s < 300; ++s)
-    step(model, dt);
-  EXPECT_GT(model.bonds->failed_rows, 50u);
-  const Momentum after = momentum(model.particles);
-  EXPECT_LE(norm(after.linear - before.linear), 1e-12 * before.linear_scale);
-  EXPECT_LE(norm(after.angular - before.angular), 1e-11 * before.angular_scale);
-}
-
-void expect_same_bits_of_threads(const ModelSettings &settings) {
-  const std::vector<unsigned char> one = shaken_to_pieces(settings, 1);
-  for (const int threads : {2, 4})
-    EXPECT_EQ(one, shaken_to_pieces(settings, threads)) << threads << " threads";
 }
 
 } // namespace platen::dem::examples

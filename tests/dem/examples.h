@@ -6,6 +6,7 @@
 #include "base/pi.h"
 #include "dem/model.h"
 #include "dem/packing/specimen.h"
+#include "tests/instruction_sets.h"
 
 namespace platen::dem::examples {
 
@@ -35,6 +36,8 @@ ModelSettings bonded_by_beams(double young, double poisson, double slender);
 // Concrete of Onate et al. 2015 (table 5): interfaces over an interaction range of .1, contacts with the
 // friction of failed ones.
 ModelSettings interfaces();
+// Yielding parallel bonds, of so low a strength in shear that some slide apart, and contacts.
+ModelSettings yielding_bonds();
 // Parallel bonds with the strengths above, and contacts of the bond's stiffness with friction .5 and without
 // dashpot.
 ModelSettings breakable();
@@ -49,8 +52,9 @@ void step(Model &model, double dt, const Load &load) {
   load(model.particles);
   model.end_step(dt);
 }
-inline void step(Model &model, double dt) {
-  step(model, dt, [](Particles &) {});
+inline void step(Model &model, double dt, int times = 1) {
+  for (int k = 0; k < times; ++k)
+    step(model, dt, [](Particles &) {});
 }
 
 // Row of the particle that was `id` in the specimen.
@@ -79,16 +83,22 @@ Momentum momentum(const Particles &particles);
 // Spheres in motion, at random and inwards: some bonds are drawn apart, some slide, some are pressed beyond
 // yield. `rate` in 1/s.
 void shake(Particles &particles, double speed, double rate = 0);
-// All columns of particles and bonds of a shaken block, some of whose bonds have failed.
-std::vector<unsigned char> shaken_to_pieces(const ModelSettings &settings, int threads);
+// Vectors and quaternions of laws.
+inline Vector3 vector(const Triple<double> &a) {
+  return {a.x, a.y, a.z};
+}
+inline Rotation<double> rotation(const Quaternion &q) {
+  return {q.w, q.x, q.y, q.z};
+}
 
-// What every law that remembers has to show on a free block that shakes itself to pieces; `settings` as the
-// law's test has them, without dashpots. What the block had at first is stored, or counted as loss: the
-// balance is off by at most `coarse` of it at a quarter of the largest step, `fine` at a sixteenth. Returns
-// the model after the finer run.
-EnergyLedger expect_balance_of_breaking_block(const ModelSettings &settings, double speed, double rate,
-                                              double coarse, double fine);
-void expect_momentum_through_failure(const ModelSettings &settings, double speed);
-void expect_same_bits_of_threads(const ModelSettings &settings); // 1, 2 and 4
+// Breaks the bonds of which this is true by row, in tension; returns how many.
+template <class Where>
+std::size_t break_rows_where(Bonds &bonds, Particles &particles, const Where &where, double time = 0) {
+  std::vector<BondBreak> breaks;
+  for (std::size_t k = 0; k < bonds.size(); ++k)
+    if (where(k)) breaks.push_back({static_cast<int>(k), BondState::broken_in_tension});
+  bonds.break_rows(breaks, particles, time);
+  return breaks.size();
+}
 
 } // namespace platen::dem::examples

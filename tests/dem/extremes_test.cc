@@ -91,8 +91,7 @@ double energy_of_block(const Vector3 &shift, double length, double mass) {
     Random random(static_cast<std::uint64_t>(p.id[i]));
     p.velocity[i] = length * .05 * random.direction();
   }
-  for (int s = 0; s < 500; ++s)
-    step(model, 1e-7);
+  step(model, 1e-7, 500);
   return model.energy().bonds / (mass * length * length); // J
 }
 

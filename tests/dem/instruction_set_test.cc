@@ -12,14 +12,6 @@ namespace {
 
 using namespace examples;
 
-std::vector<InstructionSet> sets_here() {
-  std::vector<InstructionSet> sets;
-  const InstructionSet best = best_instruction_set();
-  if (best != InstructionSet::baseline) sets.push_back(InstructionSet::avx2);
-  if (best == InstructionSet::avx512) sets.push_back(InstructionSet::avx512);
-  return sets;
-}
-
 void disturb(Particles &p, double strain) {
   Random random(3);
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -46,7 +38,6 @@ protected:
 };
 
 TEST_P(Kernels, agree_with_the_baseline) {
-  if (sets_here().empty()) GTEST_SKIP() << "this processor has the baseline only";
   Model model(packed_box(14, 14, 14), with(breakable()));
   disturb(model.particles, .01);
   Bonds &bonds = *model.bonds;
@@ -57,7 +48,7 @@ TEST_P(Kernels, agree_with_the_baseline) {
   ASSERT_LT(breaks.size(), bonds.size());
   // The strain of .01 takes two of the sixteen digits of the positions; a particle adds up a dozen bonds.
   const double force = bond_totals(particles, bonds).force / static_cast<double>(bonds.size());
-  for (const InstructionSet set : sets_here()) {
+  for (const InstructionSet set : instruction_sets_here()) {
     std::vector<BondBreak> others;
     const Loads loads = kernel_loads(particles, bonds, set, others);
     ASSERT_EQ(others.size(), breaks.size()) << name(set);
@@ -79,9 +70,7 @@ TEST_P(Kernels, compute_every_row_of_any_count) {
     Model model(row(bonds, {1, 1, 0}), with(bonded()));
     disturb(model.particles, 1e-3);
     const Loads expected = bond_loads(model.particles, *model.bonds);
-    std::vector<InstructionSet> sets = sets_here();
-    sets.push_back(InstructionSet::baseline);
-    for (const InstructionSet set : sets) {
+    for (const InstructionSet set : instruction_sets_here()) {
       std::vector<BondBreak> breaks;
       for (Vector3 &f : model.particles.force)
         f = {1e300, 0, 0};

@@ -42,8 +42,7 @@ void set_in_motion(Particles &p) {
 std::vector<Vector3> positions_after(double duration, int steps) {
   Model model(bar(), bonded());
   set_in_motion(model.particles);
-  for (int s = 0; s < steps; ++s)
-    step(model, duration / steps);
+  step(model, duration / steps, steps);
   return {model.particles.position.begin(), model.particles.position.end()};
 }
 
@@ -109,8 +108,7 @@ TEST(integrator, momentum_is_conserved_to_round_off) {
   set_in_motion(model.particles);
   const Momentum before = momentum(model.particles);
   const double dt = .5 * model.stable_step({}, 0).limit;
-  for (int s = 0; s < 20000; ++s)
-    step(model, dt);
+  step(model, dt, 20000);
   const Momentum after = momentum(model.particles);
   expect_below(6, "drift_of_momentum", norm(after.linear - before.linear) / before.linear_scale, 1e-11);
   expect_below(6, "drift_of_angular_momentum", norm(after.angular - before.angular) / before.angular_scale,
@@ -127,8 +125,7 @@ TEST(integrator, orientation_keeps_its_norm_and_turns_by_the_spin) {
   const double spin = 100, dt = 1e-5;
   (*model.particles.angular_velocity)[0] = spin * axis;
   const int steps = 1000000;
-  for (int s = 0; s < steps; ++s)
-    step(model, dt);
+  step(model, dt, steps);
   const Quaternion q = (*model.particles.orientation)[0];
   expect_below(17, "square_norm_of_orientation_less_one",
                std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1), 1e-14);
@@ -147,8 +144,7 @@ TEST(integrator, a_thrown_sphere_follows_its_parabola) {
   Particles &p = model.particles;
   p.velocity[0] = {1, 0, 3};
   p.force[0] = p.mass[0] * settings.gravity; // from t = 0 on
-  for (int s = 0; s < 1000; ++s)
-    step(model, 1e-4);
+  step(model, 1e-4, 1000);
   EXPECT_NEAR(p.position[0].x, .1, 1e-13);
   EXPECT_NEAR(p.position[0].z, .3 - .5 * 9.80665 * .01, 1e-13); // leapfrog is exact for a constant force
   // The work of the weight is taken at full-step velocities: half a step's kick is open at either end.

@@ -159,10 +159,7 @@ TEST(measure, broken_bonds_leave_the_gauge_as_it_was) {
   const Specimen specimen = lattice_with_loose_spheres();
   Model model(specimen, bonded());
   const Gauge before(model.particles, specimen.shape, model.bonds.get());
-  std::vector<BondBreak> breaks;
-  for (std::size_t k = 0; k < model.bonds->size(); ++k)
-    breaks.push_back({static_cast<int>(k), BondState::broken_in_tension});
-  model.bonds->break_rows(breaks, model.particles, 0);
+  break_rows_where(*model.bonds, model.particles, [](std::size_t) { return true; });
   model.bonds->compact();
   ASSERT_EQ(model.bonds->size(), 0u);
   const Gauge after(model.particles, specimen.shape, model.bonds.get());
@@ -324,16 +321,16 @@ TEST(measure, a_simple_cubic_lattice_is_stiffer_along_its_bonds_than_in_the_mean
   EXPECT_GT(found[0], 1.5 * 2. / 3 * network_moduli(*model.bonds, lattice.shape.volume()).young_voigt);
 }
 
-// Bonds broken by hand.
 void break_where(Model &model, const std::function<bool(const Vector3 &midpoint)> &where) {
-  std::vector<BondBreak> breaks;
   Bonds &b = *model.bonds;
-  for (std::size_t k = 0; k < b.size(); ++k) {
-    const Vector3 middle = .5 * (model.particles.reference_position[static_cast<std::size_t>(b.first[k])] +
-                                 model.particles.reference_position[static_cast<std::size_t>(b.second[k])]);
-    if (where(middle)) breaks.push_back({static_cast<int>(k), BondState::broken_in_tension});
-  }
-  b.break_rows(breaks, model.particles, 1.0);
+  const auto &at = model.particles.reference_position;
+  break_rows_where(
+      b, model.particles,
+      [&](std::size_t k) {
+        return where(.5 *
+                     (at[static_cast<std::size_t>(b.first[k])] + at[static_cast<std::size_t>(b.second[k])]));
+      },
+      1.0);
 }
 
 TEST(measure, damage_is_counted_where_it_is) {

@@ -86,8 +86,7 @@ TEST_P(Passes, do_not_depend_on_the_instruction_set) {
   EXPECT_EQ(sums.damping_work > 0,
             GetParam().ledger && (GetParam().local_damping > 0 || GetParam().dissipation > 1));
   EXPECT_EQ(sums.weight_work != 0, GetParam().ledger && norm(GetParam().gravity) > 0);
-  for (const InstructionSet set : {InstructionSet::avx2, InstructionSet::avx512}) {
-    if (set > best_instruction_set()) continue;
+  for (const InstructionSet set : instruction_sets_here()) {
     Particles p(cloud(), 2400, GetParam().rotation);
     prepare(p);
     EXPECT_EQ(how(set).begin(p, 1e-7).fastest, motion.fastest);

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/pi.h"
-#include "base/vector3.h"
-#include "dem/laws/yielding_parallel_bond.h"
+#include "tests/dem/one_bond.h"
 
 namespace platen::dem::one_yielding_bond {
 
@@ -25,63 +23,35 @@ inline YieldingParallelBond::Parameters concrete() {
   return p;
 }
 
-// Two spheres along z that are placed and turned by hand; the first stays where it is.
-struct Bond {
-  YieldingParallelBond law;
-  InterfaceGeometry<double> geometry{length,         0.5,   modulus / length, pi *radius *radius, 1.0,
-                                     {0, 0, length}, radius};
-  YieldingParallelBond::State<double> state{};
-  InterfaceMotion<double> pose{{0, 0, length}, {}, {}, 0, {1, 0, 0, 0}, {1, 0, 0, 0}, {}, {}};
-  InterfaceResponse<double> now{};
-  double work = 0;       // J, by the trapezoid over each step
+struct Bond : examples::OneBond<YieldingParallelBond> {
+  using State = YieldingParallelBond::State<double>;
   double kinks_work = 0; // J, what the trapezoid misses of the normal force where a step crosses its kinks
 
-  explicit Bond(const YieldingParallelBond::Parameters &p, double friction = 0.35) : law(p) {
-    law.grain_friction = friction;
-    now = law(state, geometry, pose);
-  }
-  // The second sphere moves by this and both turn by these (rad, small), in so many steps.
-  void move(const Triple<double> &by, const Triple<double> &turn_i = {}, const Triple<double> &turn_j = {},
-            int steps = 1) {
-    const auto share = [&](const Triple<double> &v) { return scale(1.0 / steps, v); };
-    for (int k = 0; k < steps; ++k) {
-      const InterfaceResponse<double> before = now;
-      const YieldingParallelBond::State<double> last = state;
-      const double was = elastic();
-      pose.travelled = share(by), pose.turned_i = share(turn_i), pose.turned_j = share(turn_j);
-      pose.distance = pose.distance + pose.travelled;
-      pose.turn_i = turned_by(pose.turn_i, pose.turned_i);
-      pose.turn_j = turned_by(pose.turn_j, pose.turned_j);
-      const Triple<double> arms =
-          scale(geometry.lever, pose.turned_i) + scale(1 - geometry.lever, pose.turned_j);
-      pose.moved = pose.travelled + cross(pose.distance - scale(0.5, pose.travelled), arms);
-      pose.spun_along = 0.5 * dot(pose.turned_i + pose.turned_j, pose.distance);
-      now = law(state, geometry, pose);
-      work += 0.5 * (dot(before.force + now.force, pose.travelled) -
-                     dot(before.torque_i + now.torque_i, pose.turned_i) -
-                     dot(before.torque_j + now.torque_j, pose.turned_j));
-      kinks_work += missed(last, was, elastic());
-    }
-  }
-  static Rotation<double> turned_by(const Rotation<double> &q, const Triple<double> &angle) {
-    const Quaternion to = rotation_quaternion({angle.x, angle.y, angle.z}) * Quaternion{q.w, q.x, q.y, q.z};
-    return {to.w, to.x, to.y, to.z};
-  }
+  explicit Bond(const YieldingParallelBond::Parameters &p, double friction = 0.35)
+      : OneBond(of(p, friction), modulus, length, radius) {}
   // Pa, of closing without yield.
   double elastic() const {
     return geometry.normal_stiffness * (length - root(dot(pose.distance, pose.distance)));
   }
   // Compression, by hand: along the branches of concrete() on closing, elastic on opening, none of a broken
   // one that is apart. Its integral between two places less the trapezoid, J; exact for straight pieces.
-  double missed(const YieldingParallelBond::State<double> &from, double a, double b) const;
-  double stress() const { return now.normal / geometry.area; } // Pa
-  double shear() const { return root(dot(now.shear, now.shear)) / geometry.area; }
-  double plastic() const { return law.plastic_work(state, geometry); }
-  double balance() const { return now.energy + plastic() + state.dissipated; }
+  double missed(const State &from, double a, double b) const;
+  double stress() const { return normal(); }                                           // Pa
   double closing(double elastic) const { return elastic / geometry.normal_stiffness; } // m, for a stress
+
+private:
+  State last_{};
+  double was_ = 0;
+  void begin_step() override { last_ = state, was_ = elastic(); }
+  void end_step() override { kinks_work += missed(last_, was_, elastic()); }
+  static YieldingParallelBond of(const YieldingParallelBond::Parameters &p, double friction) {
+    YieldingParallelBond law(p);
+    law.grain_friction = friction;
+    return law;
+  }
 };
 
-inline double Bond::missed(const YieldingParallelBond::State<double> &from, double a, double b) const {
+inline double Bond::missed(const State &from, double a, double b) const {
   constexpr double limits[] = {60e6, 110e6, 160e6}, slopes[] = {3, 12, 22};
   const double begins[] = {60e6, 60e6 + 3 * 50e6, 60e6 + 3 * 50e6 + 12 * 50e6};
   const auto branches = [&](double e) {

@@ -42,8 +42,7 @@ bool comes_to_rest(const Specimen &specimen, const ModelSettings &settings, doub
   for (Vector3 &v : model.particles.velocity)
     v = 1e-6 * random.direction();
   const double start = kinetic_energy(model.particles);
-  for (int s = 0; s < 3000; ++s)
-    step(model, dt);
+  step(model, dt, 3000);
   return model.energy().stored() < .02 * start;
 }
 

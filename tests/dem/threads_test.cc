@@ -50,8 +50,7 @@ Outcome cracking_block(int threads, double dissipation, bool scattered) {
   }
   Outcome o;
   o.limit = model.stable_step({}, 0).limit;
-  for (int s = 0; s < 250; ++s)
-    step(model, .5 * o.limit);
+  step(model, .5 * o.limit, 250);
   append(o.state, p.table);
   append(o.state, model.bonds->table);
   append(o.state, model.bonds->records);

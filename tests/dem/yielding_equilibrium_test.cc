@@ -9,7 +9,6 @@
 #include <cmath>
 #include <string>
 
-#include "base/parallel.h"
 #include "tests/dem/examples.h"
 #include "tests/dem/one_yielding_bond.h"
 #include "tests/measured.h"

@@ -21,9 +21,7 @@ TEST(YieldingParallelBond, is_the_parallel_bond_until_it_yields) {
                                          {pair.pose.distance, pair.pose.turn_i, pair.pose.turn_j});
   const BondResponse<double> told = pair.law.bond_response(pair.state, g, pair.pose);
   const auto near = [](const Triple<double> &a, const Triple<double> &b, double of) {
-    EXPECT_NEAR(a.x, b.x, 1e-13 * of);
-    EXPECT_NEAR(a.y, b.y, 1e-13 * of);
-    EXPECT_NEAR(a.z, b.z, 1e-13 * of);
+    EXPECT_LT(norm(examples::vector(a - b)), 1e-13 * of);
   };
   const double force = root(dot(r.force, r.force)), torque = force * length;
   near(pair.now.force, r.force, force);

@@ -9,10 +9,7 @@
 
 #include "base/random.h"
 #include "base/state.h"
-#include "coupling/platen_test.h"
-#include "dem/packing/advancing_front.h"
-#include "tests/coupling/elastic_problem.h"
-#include "tests/coupling/small_cylinder.h"
+#include "tests/coupling/set_ups.h"
 #include "tests/measured.h"
 
 namespace platen::coupling {
@@ -42,9 +39,8 @@ PlatenTestSettings pressed_hard(double contact_over_bond) {
   return s;
 }
 
-dem::Specimen block() {
-  return dem::advancing_front(dem::box(6e-3, 6e-3, 8e-3),
-                              {dem::RadiusDistribution::Kind::uniform, 0.7e-3, 1e-3}, 3);
+dem::Specimen small_block() {
+  return filled(dem::box(6e-3, 6e-3, 8e-3), 3);
 }
 
 Case chain() {
@@ -60,22 +56,22 @@ Case chain() {
 }
 
 Case bonded_block() {
-  return {"bonded_block", block(), pressed_hard(0.1)};
+  return {"bonded_block", small_block(), pressed_hard(0.1)};
 }
 
 Case rigid_platens() {
-  return {"rigid_platens", block(), pressed_hard(10)};
+  return {"rigid_platens", small_block(), pressed_hard(10)};
 }
 
 // Tied, so that springs far stiffer than bonds act both ways and set the limit.
 Case stiff_ties_to_rigid_platens() {
-  Case c{"stiff_ties_to_rigid_platens", block(), pressed_hard(30)};
+  Case c{"stiff_ties_to_rigid_platens", small_block(), pressed_hard(30)};
   c.settings.platens.glued = true;
   return c;
 }
 
 Case elastic_platens() {
-  Case c{"elastic_platens", block(), pressed_hard(10)};
+  Case c{"elastic_platens", small_block(), pressed_hard(10)};
   c.settings.platens.elastic = ElasticPlatens{};
   c.settings.platens.elastic->damping = 0;
   return c;
@@ -102,10 +98,7 @@ Outcome run(PlatenTest &problem, long steps) {
     v = 1e-6 * random.direction();
   Outcome o;
   try {
-    while (problem.steps() < steps) {
-      problem.advance(steps - problem.steps());
-      problem.model.take_cracks();
-    }
+    advance_to(problem, steps);
     const dem::EnergyLedger e = problem.energy();
     o.growth = std::abs(e.residual()) / e.boundary;
   } catch (const NumericsStopped &e) {

@@ -1,0 +1,196 @@
+// What every elastic bond law has to be, of unequal spheres in any direction, turned and strained finitely.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.h"
+#include "dem/laws/cohesive_beam.h"
+#include "dem/laws/parallel_bond.h"
+#include "tests/dem/examples.h"
+
+namespace platen::dem {
+namespace {
+
+using namespace examples;
+using Geometry = BondGeometry<double>;
+using Motion = BondMotion<double>;
+using Response = BondResponse<double>;
+
+Quaternion quaternion(const Rotation<double> &r) {
+  return {r.w, r.x, r.y, r.z};
+}
+
+struct Parallel {
+  static ParallelBond law() {
+    return ParallelBond::Parameters{stiffness_ratio, tensile_strength, shear_strength, std::atan(.7), .5};
+  }
+};
+struct WithoutMoments {
+  static ParallelBond law() {
+    ParallelBond law = Parallel::law();
+    law.parameters.moments = false;
+    return law;
+  }
+};
+struct Beam {
+  static CohesiveBeam law() { return CohesiveBeam::Parameters{.3, 30e6, 90e6, std::atan(.7), .5}; }
+};
+
+template <class Of>
+class ElasticLaw : public testing::Test {
+protected:
+  static constexpr double length = 2 * radius;
+  Random random{7};
+  const decltype(Of::law()) law = Of::law();
+
+  Quaternion random_turn(double most) {
+    return rotation_quaternion(random.uniform(0, most) * random.direction());
+  }
+  struct Bond {
+    Geometry geometry;
+    Motion motion;
+  };
+  Bond random_bond() {
+    const Vector3 direction = random.direction();
+    const double l = length * random.uniform(.6, 1.4);
+    Bond b;
+    b.geometry = {triple(l * direction), l, random.uniform(.2, .8), normal_stiffness, radius};
+    const Quaternion common = random_turn(3);
+    b.motion.distance =
+        triple(rotate(common, l * (random.uniform(.8, 1.2) * direction + .2 * random.direction())));
+    b.motion.turn_i = rotation(random_turn(.5) * common);
+    b.motion.turn_j = rotation(random_turn(.5) * common);
+    return b;
+  }
+  static double torque(const Response &r) { return norm(vector(r.torque_i)) + norm(vector(r.torque_j)); }
+};
+struct Names {
+  template <class Of>
+  static std::string GetName(int) {
+    return std::is_same_v<Of, Beam>       ? "beam"
+           : std::is_same_v<Of, Parallel> ? "parallel_bond"
+                                          : "without_moments";
+  }
+};
+using ElasticLaws = testing::Types<Parallel, WithoutMoments, Beam>;
+TYPED_TEST_SUITE(ElasticLaw, ElasticLaws, Names);
+
+// Action on j is minus the force, by construction; the moments must balance about any point too.
+TYPED_TEST(ElasticLaw, forces_and_moments_balance_for_any_finite_motion) {
+  for (int trial = 0; trial < 2000; ++trial) {
+    const auto b = this->random_bond();
+    const Response r = this->law(b.geometry, b.motion);
+    const Vector3 lever = cross(vector(b.motion.distance), vector(r.force));
+    const Vector3 sum = vector(r.torque_i) + vector(r.torque_j) - lever; // T_i + T_j + d x F_j
+    EXPECT_LE(norm(sum), 2e-13 * (this->torque(r) + norm(lever)));
+  }
+}
+
+// Central differences: h^2 of truncation against 1e-16 / h of round-off leaves about 1e-9 of the scale.
+TYPED_TEST(ElasticLaw, forces_are_derivatives_of_the_stored_energy) {
+  constexpr double h = 1e-5;
+  const double l = this->length;
+  for (int trial = 0; trial < 200; ++trial) {
+    const auto b = this->random_bond();
+    const Response r = this->law(b.geometry, b.motion);
+    const double scale = r.energy / l * 10 + norm(vector(r.force));
+    for (int c = 0; c < 3; ++c) {
+      Vector3 e;
+      e[c] = h;
+      const auto slope = [&](auto change) {
+        Motion plus = b.motion, minus = b.motion;
+        change(plus, e);
+        change(minus, -e);
+        return (this->law(b.geometry, plus).energy - this->law(b.geometry, minus).energy) / (2 * h);
+      };
+      const double by_distance =
+          slope([&](Motion &m, const Vector3 &s) { m.distance = m.distance + triple(l * s); });
+      const double by_turn_i = slope([](Motion &m, const Vector3 &s) {
+        m.turn_i = rotation(rotation_quaternion(s) * quaternion(m.turn_i));
+      });
+      const double by_turn_j = slope([](Motion &m, const Vector3 &s) {
+        m.turn_j = rotation(rotation_quaternion(s) * quaternion(m.turn_j));
+      });
+      EXPECT_NEAR(vector(r.force)[c], by_distance / l, 1e-7 * scale); // on i, which moves against d
+      EXPECT_NEAR(vector(r.torque_i)[c], -by_turn_i, 1e-7 * scale * l);
+      EXPECT_NEAR(vector(r.torque_j)[c], -by_turn_j, 1e-7 * scale * l);
+    }
+  }
+}
+
+TYPED_TEST(ElasticLaw, naming_the_other_end_first_changes_nothing) {
+  for (int trial = 0; trial < 500; ++trial) {
+    const auto b = this->random_bond();
+    Geometry g = b.geometry;
+    g.reference = scale(-1.0, g.reference);
+    g.lever = 1 - g.lever;
+    const Response one = this->law(b.geometry, b.motion),
+                   other = this->law(g, {scale(-1.0, b.motion.distance), b.motion.turn_j, b.motion.turn_i});
+    EXPECT_LE(norm(vector(one.force + other.force)), 1e-12 * norm(vector(one.force)));
+    EXPECT_LE(norm(vector(one.torque_i - other.torque_j)), 1e-12 * this->torque(one));
+    EXPECT_LE(norm(vector(one.torque_j - other.torque_i)), 1e-12 * this->torque(one));
+    EXPECT_NEAR(one.energy, other.energy, 1e-12 * one.energy);
+    EXPECT_NEAR(one.tension_ratio, other.tension_ratio, 1e-12 * std::abs(one.tension_ratio) + 1e-12);
+    EXPECT_NEAR(one.shear_ratio, other.shear_ratio, 1e-12 * one.shear_ratio);
+  }
+}
+
+TYPED_TEST(ElasticLaw, the_frame_of_reference_does_not_matter) {
+  for (int trial = 0; trial < 500; ++trial) {
+    const auto b = this->random_bond();
+    const Quaternion q = this->random_turn(6);
+    const Response before = this->law(b.geometry, b.motion),
+                   after = this->law(b.geometry, {triple(rotate(q, vector(b.motion.distance))),
+                                                  rotation(q * quaternion(b.motion.turn_i)),
+                                                  rotation(q * quaternion(b.motion.turn_j))});
+    EXPECT_LE(norm(rotate(q, vector(before.force)) - vector(after.force)),
+              1e-12 * norm(vector(before.force)));
+    EXPECT_LE(norm(rotate(q, vector(before.torque_i)) - vector(after.torque_i)),
+              1e-12 * this->torque(before));
+    EXPECT_LE(norm(rotate(q, vector(before.torque_j)) - vector(after.torque_j)),
+              1e-12 * this->torque(before));
+    EXPECT_NEAR(before.tension_ratio, after.tension_ratio, 1e-10);
+  }
+}
+
+// Turned by any angle, the sign of a quaternion included.
+TYPED_TEST(ElasticLaw, stores_nothing_when_it_is_turned_rigidly) {
+  for (int trial = 0; trial < 100; ++trial) {
+    auto b = this->random_bond();
+    const Quaternion q = this->random_turn(6);
+    b.motion = {triple(rotate(q, vector(b.geometry.reference))), rotation(q),
+                rotation(trial % 2 ? q : Quaternion{-q.w, -q.x, -q.y, -q.z})};
+    const Response r = this->law(b.geometry, b.motion);
+    const double force = normal_stiffness * area * this->length;
+    EXPECT_LT(norm(vector(r.force)), 1e-12 * force);
+    EXPECT_LT(this->torque(r), 1e-12 * force * this->length);
+    EXPECT_LT(r.energy, 1e-24 * force * this->length);
+  }
+}
+
+TYPED_TEST(ElasticLaw, a_broken_bond_is_silent) {
+  auto b = this->random_bond();
+  b.geometry.normal_stiffness = 0;
+  const Response r = this->law(b.geometry, b.motion);
+  EXPECT_EQ(norm(vector(r.force)) + this->torque(r) + r.energy, 0);
+  EXPECT_EQ(r.tension_ratio, 0);
+  EXPECT_NEAR(r.shear_ratio, 0, 1e-12);
+}
+
+using ParallelLaw = ElasticLaw<Parallel>; // the only one with a form of its own
+TEST_F(ParallelLaw, without_turning_both_forms_agree) {
+  for (int trial = 0; trial < 200; ++trial) {
+    auto b = random_bond();
+    b.motion.turn_i = b.motion.turn_j = {1, 0, 0, 0};
+    b.motion.distance = b.geometry.reference + triple(.1 * length * random.direction());
+    const Response with = law(b.geometry, b.motion),
+                   without = law.without_rotation(b.geometry, b.motion.distance);
+    EXPECT_LE(norm(vector(with.force - without.force)), 1e-12 * norm(vector(with.force)));
+    EXPECT_NEAR(with.energy, without.energy, 1e-12 * with.energy);
+    EXPECT_NEAR(with.tension_ratio, without.tension_ratio, 1e-10 * std::abs(with.tension_ratio));
+    EXPECT_NEAR(with.shear_ratio, without.shear_ratio, 1e-10 * with.shear_ratio);
+  }
+}
+
+} // namespace
+} // namespace platen::dem

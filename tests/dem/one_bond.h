@@ -1,0 +1,94 @@
+// One bond that remembers between two spheres along z, with prescribed motion, for tests of its law. SI
+// units.
+#pragma once
+
+#include "base/pi.h"
+#include "base/vector3.h"
+#include "dem/laws/interface_moments.h"
+#include "dem/laws/yielding_parallel_bond.h"
+#include "tests/dem/examples.h"
+
+namespace platen::dem::examples {
+
+// What acts by the law, and moves the state on.
+inline InterfaceResponse<double> act(const ElastoDamagePlastic &law, InterfaceState<double> &s,
+                                     const InterfaceGeometry<double> &g, const InterfaceMotion<double> &m) {
+  return law.parameters.moments ? BendingInterface{law}(s, g, m) : law(s, g, m);
+}
+inline InterfaceResponse<double> act(const YieldingParallelBond &law, YieldingParallelBond::State<double> &s,
+                                     const InterfaceGeometry<double> &g, const InterfaceMotion<double> &m) {
+  return law(s, g, m);
+}
+
+// The first sphere stays where it is, both turn.
+template <class Law>
+struct OneBond {
+  Law law;
+  InterfaceGeometry<double> geometry;
+  typename Law::template State<double> state{};
+  InterfaceMotion<double> pose;
+  InterfaceResponse<double> now{};
+  double work = 0; // J, by the trapezoid over each step: exact along straight lines
+
+  OneBond(const Law &of, double young, double length, double bond_radius)
+      : law(of),
+        geometry{length,         0.5,        young / length, pi * bond_radius * bond_radius, 1.0,
+                 {0, 0, length}, bond_radius},
+        pose{{0, 0, length}, {}, {}, 0, {1, 0, 0, 0}, {1, 0, 0, 0}, {}, {}} {
+    now = act(law, state, geometry, pose);
+  }
+  virtual ~OneBond() = default;
+  // The second sphere moves by this and both turn by these (rad, small), in so many steps.
+  void move(const Triple<double> &by, const Triple<double> &turn_i = {}, const Triple<double> &turn_j = {},
+            int steps = 1) {
+    const double part = 1.0 / steps;
+    for (int k = 0; k < steps; ++k) {
+      begin_step();
+      const InterfaceResponse<double> before = now;
+      pose.travelled = scale(part, by), pose.turned_i = scale(part, turn_i),
+      pose.turned_j = scale(part, turn_j);
+      pose.distance = pose.distance + pose.travelled;
+      pose.turn_i = turned_by(pose.turn_i, pose.turned_i),
+      pose.turn_j = turned_by(pose.turn_j, pose.turned_j);
+      const Triple<double> arms =
+          scale(geometry.lever, pose.turned_i) + scale(1 - geometry.lever, pose.turned_j);
+      pose.moved = pose.travelled + cross(pose.distance - scale(0.5, pose.travelled), arms);
+      pose.spun_along = 0.5 * dot(pose.turned_i + pose.turned_j, pose.distance);
+      now = act(law, state, geometry, pose);
+      work += 0.5 * (dot(before.force + now.force, pose.travelled) -
+                     dot(before.torque_i + now.torque_i, pose.turned_i) -
+                     dot(before.torque_j + now.torque_j, pose.turned_j));
+      end_step();
+    }
+  }
+  // As if it had come to where it is by these (m, m, rad m); returns the work of that, J.
+  double impose(const Triple<double> &travelled, const Triple<double> &moved, double spun = 0) {
+    const Triple<double> before = now.force;
+    now = law(state, geometry, {pose.distance, travelled, moved, spun});
+    return 0.5 * dot(before + now.force, moved);
+  }
+  static Rotation<double> turned_by(const Rotation<double> &q, const Triple<double> &angle) {
+    return rotation(rotation_quaternion(vector(angle)) * Quaternion{q.w, q.x, q.y, q.z});
+  }
+  double normal() const { return now.normal / geometry.area; } // Pa
+  double shear() const { return norm(vector(now.shear)) / geometry.area; }
+  double plastic() const { return law.plastic_work(state, geometry); } // J
+  double balance() const { return now.energy + plastic() + state.dissipated; }
+
+protected:
+  virtual void begin_step() {}
+  virtual void end_step() {}
+};
+
+// Concrete of Onate et al. 2015, table 5.
+inline ElastoDamagePlastic::Parameters interface_of_concrete() {
+  ElastoDamagePlastic::Parameters p;
+  p.poisson_ratio = 0.2;
+  p.tensile_strength = 5e6, p.shear_strength = 16e6;
+  p.friction_static = 0.9, p.friction_dynamic = 0.25;
+  p.softening_tension = 0.2, p.softening_shear = 1.0;
+  p.compression_limits = {20e6, 45e6, 70e6}, p.compression_slopes = {3, 12, 22};
+  return p;
+}
+
+} // namespace platen::dem::examples

@@ -1,0 +1,345 @@
+// Specimens of bonds that remember, by every such law: the kernels and the ledger's sums against the law,
+// energy, momentum, threads.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "base/parallel.h"
+#include "base/state.h"
+#include "tests/dem/one_bond.h"
+
+namespace platen::dem {
+namespace {
+
+using namespace examples;
+
+struct LawCase {
+  const char *name;
+  ModelSettings (*settings)();
+  double speed, rate;  // m/s, 1/s: of what shakes it to pieces
+  double coarse, fine; // share of what a block has at first that its energy balance may miss
+  double plastic;      // share of it, at least, that yield takes
+};
+void PrintTo(const LawCase &law, std::ostream *out) {
+  *out << law.name;
+}
+ModelSettings bending_interfaces() {
+  ModelSettings s = interfaces();
+  auto &law = std::get<ElastoDamagePlastic::Parameters>(*s.bond);
+  law.moments = true, law.moment_contribution = 0.3;
+  return s;
+}
+const LawCase laws[] = {{"interfaces", interfaces, 1.0, 600, 2e-2, 1.5e-3, .01},
+                        {"bending_interfaces", bending_interfaces, 1.5, 600, 2e-2, 2e-3, 0},
+                        {"yielding_parallel_bonds", yielding_bonds, 1.5, 900, 2e-2, 1.5e-3, .001}};
+
+bool needs_orientations(const ElastoDamagePlastic &law) {
+  return law.parameters.moments;
+}
+bool needs_orientations(const YieldingParallelBond &) {
+  return true;
+}
+InterfaceGeometry<double> geometry(const Bonds &b, std::size_t k) {
+  return {b.rest_length[k],
+          b.lever[k],
+          b.normal_stiffness[k],
+          pi * b.bond_radius[k] * b.bond_radius[k],
+          1.0,
+          triple(b.reference[k]),
+          b.bond_radius[k]};
+}
+// With the arms in the middle of the step, where the law needs orientations.
+InterfaceMotion<double> motion(const Particles &p, const Bonds &b, std::size_t k, double dt, bool in_middle) {
+  const auto i = static_cast<std::size_t>(b.first[k]), j = static_cast<std::size_t>(b.second[k]);
+  const Vector3 d = p.position[j] - p.position[i], v = p.velocity[j] - p.velocity[i];
+  InterfaceMotion<double> m{triple(d), triple(dt * v), triple(dt * v), 0, {1, 0, 0, 0}, {1, 0, 0, 0}, {}, {}};
+  if (!p.has_rotation()) return m;
+  const Vector3 wi = (*p.angular_velocity)[i], wj = (*p.angular_velocity)[j];
+  const Vector3 arm = in_middle ? d - 0.5 * dt * v : d;
+  m.moved = triple(dt * (v + cross(wj, (b.lever[k] - 1) * arm) - cross(wi, b.lever[k] * arm)));
+  m.spun_along = 0.5 * dt * dot(wi + wj, d);
+  m.turn_i = rotation((*p.orientation)[i]), m.turn_j = rotation((*p.orientation)[j]);
+  m.turned_i = triple(dt * wi), m.turned_j = triple(dt * wj);
+  return m;
+}
+
+// In every block all but a few of those that failed stand behind all that are whole, and no bond was lost.
+void expect_failed_last(Model &model) {
+  model.bonds->order_failed();
+  const Bonds &b = *model.bonds;
+  std::vector<int> seen(b.initial_count(), 0);
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    const int record = b.record[k];
+    ++seen[static_cast<std::size_t>(record)];
+    ASSERT_EQ(b.first[k], b.record_first[record]) << "row " << k;
+    ASSERT_EQ(b.second[k], b.record_second[record]) << "row " << k;
+  }
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<std::ptrdiff_t>(seen.size()));
+  for (std::size_t block = 0; block < b.blocks.blocks(); ++block) {
+    int among_whole = 0, failed = 0;
+    for (std::size_t k = b.blocks.first_pair[block]; k < b.blocks.first_pair[block + 1]; ++k)
+      if (b.has_failed(k))
+        ++failed;
+      else
+        among_whole = failed;
+    EXPECT_LT(among_whole, 8) << "block " << block << ", " << failed << " have failed";
+  }
+}
+
+// Row by row, from what each remembers.
+BondTotals by_rows(const Particles &p, const Bonds &b) {
+  BondTotals sum;
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    const BondResponse<double> r = b.response(k, p);
+    sum.energy += r.energy;
+    sum.force += root(dot(r.force, r.force));
+    of_remembering(b.law, [&](const auto &law) {
+      const auto s = b.memory<typename std::decay_t<decltype(law)>::template State<double>>(k);
+      InterfaceGeometry<double> g{b.rest_length[k], b.lever[k], b.normal_stiffness[k],
+                                  pi * b.bond_radius[k] * b.bond_radius[k]};
+      (law.damage_of(s) >= 1 ? sum.friction : sum.damage) += s.dissipated;
+      sum.plastic += law.plastic_work(s, g);
+    });
+  }
+  return sum;
+}
+
+// By law; with rotation; with strengths of their own.
+class RememberingKernels : public testing::TestWithParam<std::tuple<LawCase, bool, bool>> {
+protected:
+  // 60 steps, beside them each bond by the law alone; what the model remembers then is what the law does.
+  // Round-off of positions, eps times some centimetres, over limits of some micrometres: 1e-11.
+  template <class Law>
+  static void follow(Model &model, const Law &law, double dt) {
+    using State = typename Law::template State<double>;
+    const Bonds &b = *model.bonds;
+    const bool scattered = std::get<2>(GetParam());
+    std::vector<State> states(b.size(), State{});
+    for (int s = 0; s < 60; ++s) {
+      model.begin_step(dt);
+      for (std::size_t k = 0; k < b.size() && !scattered; ++k)
+        act(law, states[static_cast<std::size_t>(b.record[k])], geometry(b, k),
+            motion(model.particles, b, k, dt, needs_orientations(law)));
+      model.compute_forces(dt);
+      model.end_step(dt);
+    }
+    std::size_t yielded = 0, damaged = 0, failed = 0;
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      const State own = b.memory<State>(k),
+                  &s = scattered ? own : states[static_cast<std::size_t>(b.record[k])];
+      ASSERT_NEAR(law.damage_of(own), law.damage_of(s), 1e-8) << "row " << k;
+      ASSERT_NEAR(own.plastic, s.plastic, 1e-8 * 20e6) << "row " << k;
+      ASSERT_LE(norm(vector(own.slider - s.slider)), 1e-9 * radius) << "row " << k;
+      ASSERT_LE(norm(vector(shear_of(own) - shear_of(s))), 1e-9 * radius) << "row " << k;
+      yielded += s.plastic > 0;
+      damaged += law.damage_of(s) > 0 && law.damage_of(s) < 1;
+      failed += law.damage_of(s) >= 1;
+    }
+    EXPECT_EQ(b.failed_rows, failed); // none is missed in the step in which it fails, wherever it stands
+    EXPECT_GT(failed, 20u);
+    EXPECT_GT(yielded, 20u);
+    if constexpr (std::is_same_v<Law, ElastoDamagePlastic>) {
+      EXPECT_GT(damaged, 1u);
+    } else {
+      EXPECT_GT(model.broken_tension, 50);
+      EXPECT_GT(model.broken_shear, 5);
+      expect_failed_last(model);
+    }
+  }
+
+private:
+  static Triple<double> shear_of(const InterfaceState<double> &s) { return s.shear; }
+  static Triple<double> shear_of(const YieldingParallelBond::State<double> &s) { return s.slider; }
+};
+
+TEST_P(RememberingKernels, and_sums_follow_the_law_on_every_instruction_set_and_any_threads) {
+  const auto &[of, rotation, scattered] = GetParam();
+  for (const InstructionSet set : instruction_sets_here()) {
+    SCOPED_TRACE(name(set));
+    ModelSettings settings = of.settings();
+    settings.rotation = rotation;
+    settings.instruction_set = set;
+    if (scattered) settings.strength_scatter = StrengthScatter{3, 1};
+    Model model(packed_box(15, 15, 15), settings);
+    Particles &p = model.particles;
+    Bonds &b = *model.bonds;
+    ASSERT_NE(b.size() % 8, 0u); // a last pack that is not full
+    shake(p, 2.0, of.rate);
+    const double dt = .3 * model.stable_step({}, 0).limit;
+    of_remembering(b.law, [&](const auto &law) { follow(model, law, dt); });
+
+    const BondTotals rows = by_rows(p, b);
+    EXPECT_GT(rows.friction, 0);
+    EXPECT_GT(rows.plastic, 0);
+    using Sum = double BondTotals::*;
+    const BondTotals totals = bond_totals(p, b, set);
+    for (const Sum sum : {&BondTotals::energy, &BondTotals::force, &BondTotals::damage, &BondTotals::friction,
+                          &BondTotals::plastic}) {
+      EXPECT_NEAR(totals.*sum, rows.*sum, 1e-11 * rows.*sum);
+      for (const int threads : {1, 2, 4}) {
+        const ThreadLimit limit(threads);
+        EXPECT_EQ(bond_totals(p, b, set).*sum, totals.*sum) << threads;
+      }
+    }
+    // The next forces, sphere by sphere.
+    model.begin_step(dt);
+    std::vector<BondBreak> breaks;
+    compute_interface_forces(p, b, set, {}, dt, breaks);
+    for (std::size_t block = 0; block < b.blocks.blocks(); ++block)
+      return_ghosts(p, b.blocks, block);
+    const Loads by_law = bond_loads(p, b);
+    double force = 0;
+    for (const Vector3 &f : by_law.force)
+      force = std::max(force, norm(f));
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      ASSERT_LT(norm(p.force[i] - by_law.force[i]), 1e-10 * force) << i;
+      if (rotation) {
+        ASSERT_LT(norm((*p.torque)[i] - by_law.torque[i]), 1e-10 * force * radius) << i;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(laws, RememberingKernels,
+                         testing::Combine(testing::ValuesIn(laws), testing::Bool(), testing::Bool()));
+
+// All columns of particles and bonds of a shaken block, some of whose bonds have failed.
+std::vector<unsigned char> shaken_to_pieces(const ModelSettings &of, int threads) {
+  const ThreadLimit limit(threads);
+  ModelSettings settings = of;
+  settings.bond_dashpot = .1;
+  Model model(packed_box(26, 26, 26), settings);
+  shake(model.particles, 1.5);
+  const double dt = .5 * model.stable_step({}, 0).limit;
+  step(model, dt, 120);
+  EXPECT_GT(model.bonds->failed_rows, 50u);
+  EXPECT_GT(model.bonds->blocks.blocks(), 3u);
+  std::vector<unsigned char> bytes;
+  for (const Table *table : {&model.particles.table, &model.bonds->table, &model.bonds->records})
+    for (const auto &column : table->columns()) {
+      const auto *from = static_cast<const unsigned char *>(column->bytes());
+      bytes.insert(bytes.end(), from, from + column->size() * column->bytes_per_row());
+    }
+  return bytes;
+}
+
+class RememberingModel : public testing::TestWithParam<LawCase> {};
+
+// A free block shakes itself to pieces, at a quarter and at a sixteenth of the largest step. What it had at
+// first is stored, or counted as loss.
+TEST_P(RememberingModel, the_energy_balance_of_a_breaking_block_closes) {
+  const LawCase &law = GetParam();
+  for (const int finer : {1, 4}) {
+    SCOPED_TRACE(finer);
+    Model model(packed_box(16, 16, 16), law.settings());
+    shake(model.particles, std::max(law.speed, law.plastic > 0 ? 2. : 1.5), law.rate);
+    const double start = model.energy().stored(), dt = .25 / finer * model.stable_step({}, 0).limit;
+    step(model, dt, 400 * finer);
+    const std::size_t failed = model.bonds->failed_rows;
+    EXPECT_GT(failed, 20u);
+    EXPECT_EQ(model.broken_tension + model.broken_shear, static_cast<long>(failed));
+    EXPECT_EQ(model.intact_bonds() + failed, model.bonds->initial_count());
+    const EnergyLedger energy = model.energy();
+    EXPECT_GT(energy.fracture, .01 * start);
+    EXPECT_GT(energy.friction, 0);
+    EXPECT_GE(energy.plastic, law.plastic * energy.residual());
+    // Of random motion, whose kinetic energy at whole steps is off by the square of the step.
+    EXPECT_LT(std::abs(energy.residual() - start), (finer == 1 ? law.coarse : law.fine) * start);
+  }
+}
+
+TEST_P(RememberingModel, momentum_is_kept_through_failure) {
+  Model model(packed_box(14, 14, 14), GetParam().settings());
+  shake(model.particles, GetParam().speed);
+  const Momentum before = momentum(model.particles);
+  step(model, .5 * model.stable_step({}, 0).limit, 300);
+  EXPECT_GT(model.bonds->failed_rows, 50u);
+  const Momentum after = momentum(model.particles);
+  EXPECT_LE(norm(after.linear - before.linear), 1e-12 * before.linear_scale);
+  EXPECT_LE(norm(after.angular - before.angular), 1e-11 * before.angular_scale);
+}
+
+TEST_P(RememberingModel, threads_do_not_change_a_bit) {
+  const std::vector<unsigned char> one = shaken_to_pieces(GetParam().settings(), 1);
+  for (const int threads : {2, 4})
+    EXPECT_EQ(one, shaken_to_pieces(GetParam().settings(), threads)) << threads << " threads";
+}
+
+INSTANTIATE_TEST_SUITE_P(laws, RememberingModel, testing::ValuesIn(laws),
+                         [](const testing::TestParamInfo<LawCase> &law) { return law.param.name; });
+
+TEST(InterfaceModel, interfaces_that_bend_differ_from_those_that_do_not) {
+  EXPECT_NE(shaken_to_pieces(interfaces(), 1), shaken_to_pieces(bending_interfaces(), 1));
+}
+
+// Broken rows that stand apart are passed over, those that touch are not: the same specimen with its rows as
+// they were bonded feels the same forces but for the order of sums.
+TEST(YieldingModel, the_order_of_rows_changes_forces_by_round_off_alone) {
+  Model model(packed_box(15, 15, 15), yielding_bonds());
+  shake(model.particles, 2.0, 900);
+  const double dt = .3 * model.stable_step({}, 0).limit;
+  step(model, dt, 60);
+  ASSERT_GT(model.bonds->failed_rows, 200u);
+  const auto forces = [&](bool as_bonded) {
+    Model copy(packed_box(15, 15, 15), yielding_bonds());
+    set_state(copy, state_of(model));
+    if (as_bonded) {
+      std::vector<int> order(copy.bonds->size());
+      for (std::size_t k = 0; k < order.size(); ++k)
+        order[static_cast<std::size_t>(copy.bonds->record[k])] = static_cast<int>(k);
+      copy.bonds->table.permute(order);
+      copy.bonds->count_and_cut();
+    }
+    std::vector<BondBreak> breaks;
+    compute_interface_forces(copy.particles, *copy.bonds, InstructionSet::baseline, {}, dt, breaks);
+    return std::vector<Vector3>(copy.particles.force.begin(), copy.particles.force.end());
+  };
+  const std::vector<Vector3> ordered = forces(false), as_bonded = forces(true);
+  double largest = 0;
+  for (const Vector3 &f : as_bonded)
+    largest = std::max(largest, norm(f));
+  ASSERT_GT(largest, 0);
+  for (std::size_t i = 0; i < ordered.size(); ++i)
+    ASSERT_LE(norm(ordered[i] - as_bonded[i]), 1e-12 * largest) << "particle " << i;
+}
+
+TEST(InterfaceModel, the_interaction_range_bonds_across_gaps) {
+  const double reach = 2 * radius * 1.1;
+  const Specimen pair = spheres({{0, 0, 0}, {0, 0, reach * (1 - 1e-9)}, {0, reach * (1 + 1e-9), 0}});
+  Model model(pair, interfaces());
+  ASSERT_EQ(model.bonds->size(), 1u);
+  EXPECT_DOUBLE_EQ(model.bonds->normal_stiffness[0], 28e9 / model.bonds->rest_length[0]);
+  EXPECT_NEAR(model.bonds->rest_length[0], reach, 1e-8 * reach);
+}
+
+// A spinning body stores nothing and loses nothing.
+TEST(InterfaceModel, a_spinning_block_stores_no_energy) {
+  ModelSettings settings = interfaces();
+  settings.contact.reset();
+  Model model(packed_box(8, 8, 8), settings);
+  Particles &p = model.particles;
+  const Vector3 spin{120, -80, 200};
+  Vector3 centre;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    centre += p.position[i] / static_cast<double>(p.size());
+  const double dt = .05 * model.stable_step({}, 0).limit;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p.velocity[i] = cross(spin, p.position[i] - centre);
+    (*p.angular_velocity)[i] = spin;
+  }
+  step(model, dt, 20000);
+  const EnergyLedger e = model.energy();
+  EXPECT_LT(e.bonds, 1e-3 * e.kinetic); // the stretch of a spinning body, (w r)^2 rho / E
+  double shear = 0;
+  for (std::size_t k = 0; k < model.bonds->size(); ++k) {
+    const Triple<double> u = model.bonds->memory<InterfaceState<double>>(k).shear;
+    shear = std::max(shear, root(dot(u, u)));
+  }
+  EXPECT_LT(shear, 1e-5 * radius);
+  EXPECT_EQ(model.bonds->failed_rows, 0u);
+}
+
+} // namespace
+} // namespace platen::dem
