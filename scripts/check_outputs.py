@@ -66,7 +66,7 @@ def lacking_keys(tree, allowed, members, figures, path=""):
             yield from (f"{path}{key}/{k}" for k in inner if k not in members["cases"])
             continue
         yield from lacking_keys(inner, known_object(key, members) or set(), members,
-                                figures if key == "cases" else set(), path + key + "/")
+                                figures if key in ("cases", "envelopes") else set(), path + key + "/")
 
 
 def columns_of(path):
@@ -82,7 +82,7 @@ def told_of(path, files, members):
     if name is None or re.match(r"([0-9a-f]{16}|packing_.*\d)\.csv$", path.name):  # spheres of a packing
         return []
     if path.suffix == ".csv":
-        allowed = files.get(name, set()) | (files["study.csv"] if name == "costs.csv" else set())
+        allowed = files.get(name, set()) | (files["study.csv"] if name in ("costs.csv", "envelope.csv") else set())
         return [f"column {c}" for c in columns_of(path) if c not in allowed] if name in files else ["the whole file"]
     tree = json.loads(path.read_text(encoding="utf-8"))
     if not isinstance(tree, dict) or tree.get("app") is None and name == "summary.json":

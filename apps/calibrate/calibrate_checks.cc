@@ -131,10 +131,9 @@ void check_calibrate(const SceneCheck &check) {
   if (c.mode != CalibrateMode::search) return;
   if (given(c.triaxial_strength)) check_triaxial_strength(check);
   if (c.targets.empty() && !check.parameters().faults().any_in("Calibrate"))
-    check.refuse(
-        "Calibrate/Mode",
-        "has nothing to search for. Allowed: bounds, abacus, or a Young modulus, Poisson ratio or "
-        "strength, or a Calibrate/Target 1.");
+    check.refuse("Calibrate/Mode",
+                 "has nothing to search for. Allowed: bounds, abacus, or a Young modulus, Poisson ratio or "
+                 "strength, or a Calibrate/Target 1.");
   for (const Target &target : c.targets)
     check_target(check, target);
   check_free_parameters(check);

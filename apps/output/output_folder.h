@@ -32,6 +32,7 @@ struct OutputPaths {
   std::filesystem::path study_json() const { return folder / "study.json"; }
   std::filesystem::path costs() const { return folder / "costs.csv"; }
   std::filesystem::path comparisons() const { return folder / "comparisons.csv"; }
+  std::filesystem::path envelope() const { return folder / "envelope.csv"; }
   std::filesystem::path accuracy() const { return folder / "accuracy.csv"; }
   std::filesystem::path runs() const { return folder / "runs"; } // of a study: an output folder for each
   std::filesystem::path plan() const { return folder / "plan.csv"; }

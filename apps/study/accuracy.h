@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "apps/many/runs.h"
 #include "apps/output/seed_statistics.h"
 #include "apps/output/summary.h"
 #include "apps/study/cases.h"
-#include "apps/many/runs.h"
 
 namespace platen::apps {
 

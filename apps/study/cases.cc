@@ -127,8 +127,10 @@ StudyPlan plan_vary(const Scene &scene) {
     for (const StudyCase &before : plan.cases)
       for (const std::string &value : one.values) {
         all.push_back(before);
-        all.back().name += (before.name.empty() ? "" : "_") +
-                           as_name(one.path.substr(one.path.rfind('/') + 1) + " " + value);
+        const std::string name = as_name(one.path.substr(one.path.rfind('/') + 1) + " " + value);
+        all.back().name += (before.name.empty() ? "" : "_") + name;
+        if (one.path != "Loading/Confining pressure")
+          all.back().envelope += (before.envelope.empty() ? "" : "_") + name;
         all.back().labels.push_back(number_of(value, unit));
         all.back().overrides.push_back(one.path + " = " + value);
       }

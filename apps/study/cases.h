@@ -24,6 +24,7 @@ struct StudyCase {
   std::string surface = {};           // what the platens are, in words; studies of platens
   std::vector<std::string> packings = {}; // by seed: packing_name of its specimen; "" of one from a file
   std::string scene = {};                 // that its entries change; "": the study's
+  std::string envelope = {};              // its name but for its pressure: what one failure envelope is of
   double seconds = 0; // of a run, counted from its scene (apps/run/needs.h); 0 where that cannot be
 };
 

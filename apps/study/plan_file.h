@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "apps/many/runs.h"
 #include "apps/output/output_folder.h"
 #include "apps/output/run_log.h"
 #include "apps/output/summary.h"
 #include "apps/scene/scene.h"
 #include "apps/study/cases.h"
-#include "apps/many/runs.h"
 
 namespace platen::apps {
 

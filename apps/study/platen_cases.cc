@@ -89,6 +89,7 @@ void set_height(const Scene &scene, double slenderness, StudyCase &one) {
 }
 
 void set_pressure(double pressure, StudyCase &one) {
+  one.envelope = one.name;
   one.name += "_pressure_" + in_name(pressure, "Pa");
   one.overrides.push_back(pressure > 0 ? set("Loading/Confining pressure", pressure, "Pa")
                                        : "Loading/Confinement = none");

@@ -4,6 +4,7 @@ set(PLATEN_STUDY_SOURCES
   study/accuracy_cases.cc
   study/cases.cc
   study/comparisons.cc
+  study/failure_envelope.cc
   study/plan_file.cc
   study/planned_runs.cc
   study/platen_cases.cc

@@ -7,6 +7,8 @@
 #include "apps/run/problem_setup.h"
 #include "apps/scene/expect.h"
 #include "apps/scene/values.h"
+#include "apps/study/comparisons.h"
+#include "apps/study/failure_envelope.h"
 
 namespace platen::apps {
 
@@ -71,14 +73,21 @@ void StudyResults::keep(std::size_t k, const RunOutcome &outcome) {
 }
 
 std::string StudyResults::compare(Json &study) const {
+  std::string text;
+  const std::vector<std::vector<double>> strengths = tables_.strengths();
   if (of_platens(plan_.kind)) {
-    const std::vector<Comparison> comparisons = tables_.comparisons(scene_.bond.calibrated);
+    const std::vector<Comparison> comparisons = apps::compare(plan_, strengths, scene_.bond.calibrated);
     write_comparisons(paths_.comparisons(), plan_, comparisons);
     study["comparisons"] = json_of(plan_, comparisons);
     study["laboratory"] = laboratory_figures();
-    return text_of(plan_, comparisons);
+    text = text_of(plan_, comparisons);
   }
-  if (plan_.kind != StudyKind::accuracy) return "";
+  if (const auto envelopes = failure_envelopes(plan_, strengths); !envelopes.empty()) {
+    write_envelopes(paths_.envelope(), plan_, envelopes);
+    study["envelopes"] = json_of(plan_, envelopes);
+    text += text_of(envelopes);
+  }
+  if (plan_.kind != StudyKind::accuracy) return text;
   accuracy_.write_rows(paths_.accuracy());
   const std::vector<ParameterErrors> errors = accuracy_.errors();
   study["accuracy"] = json_of(plan_, errors);

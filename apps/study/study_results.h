@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "apps/many/runs.h"
 #include "apps/output/output_folder.h"
 #include "apps/output/run_log.h"
 #include "apps/study/accuracy.h"
 #include "apps/study/cases.h"
-#include "apps/many/runs.h"
 #include "apps/study/tables.h"
 
 namespace platen::apps {

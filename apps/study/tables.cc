@@ -194,11 +194,11 @@ Json StudyTables::cases() const {
   return all;
 }
 
-std::vector<Comparison> StudyTables::comparisons(const CalibratedFor &bonds) const {
-  std::vector<std::vector<double>> strengths;
+std::vector<std::vector<double>> StudyTables::strengths() const {
+  std::vector<std::vector<double>> all;
   for (const OfCase &of : cases_)
-    strengths.push_back(of.strengths);
-  return of_platens(plan_.kind) ? compare(plan_, strengths, bonds) : std::vector<Comparison>{};
+    all.push_back(of.strengths);
+  return all;
 }
 
 std::string StudyTables::text() const {

@@ -5,13 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "apps/many/runs.h"
 #include "apps/output/csv_writer.h"
 #include "apps/output/output_folder.h"
 #include "apps/output/seed_statistics.h"
 #include "apps/output/summary.h"
 #include "apps/study/cases.h"
-#include "apps/study/comparisons.h"
-#include "apps/many/runs.h"
 
 namespace platen::apps {
 
@@ -32,8 +31,8 @@ public:
   static bool peaked(const Json &summary);
   // One object a case: labels, counts, {"mean", "deviation", "runs"} of each figure. Repeats to the byte.
   Json cases() const;
-  // Of a study of platens, once all rows are there; else nothing.
-  std::vector<Comparison> comparisons(const CalibratedFor &bonds) const;
+  // Of all runs (Pa; NaN: failed, or without a peak), by case, then by seed; once all rows are there.
+  std::vector<std::vector<double>> strengths() const;
   // For the screen, with what a run of each case cost.
   std::string text() const;
 
@@ -41,7 +40,7 @@ private:
   struct OfCase {
     int runs = 0, failed = 0, missing = 0, without_peak = 0;
     std::map<std::string, SeedStatistics> figures; // by key of summary.json
-    std::vector<double> strengths;                 // Pa, by seed; NaN: failed, or without a peak
+    std::vector<double> strengths;                 // by seed
     std::map<std::string, int> patterns;           // runs that failed so
   };
 

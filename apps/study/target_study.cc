@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/study/runs.h"
 #include "apps/study/study_section.h"
 #include "apps/study/target_prior.h"
-#include "apps/study/runs.h"
 
 namespace platen::apps {
 namespace {
@@ -55,7 +55,7 @@ std::vector<unsigned long> TargetStudy::seeds() const {
 
 void TargetStudy::add_to_batch(std::size_t of_case, std::size_t packing) {
   TestRun run = run_of(setup_.plan, of_case, setup_.scene.general.seed + packing, setup_.scene_path,
-                        setup_.overrides, setup_.paths, 1, setup_.paths.packings());
+                       setup_.overrides, setup_.paths, 1, setup_.paths.packings());
   run.specimen_of = batch_.size();
   batch_.push_back(std::move(run));
   packings_.push_back(packing);

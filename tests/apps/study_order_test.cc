@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "apps/many/runs.h"
 #include "apps/programs.h"
 #include "apps/scene/parameters.h"
 #include "apps/study/cases.h"
-#include "apps/many/runs.h"
 
 namespace {
 

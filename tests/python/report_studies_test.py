@@ -105,7 +105,7 @@ class Cases(OfStudies):
                                            "within"]])
         self.assertIn("Hughes, four mixes", ratios[0].note)
         self.assertEqual(ratios[1].rows[0][3:], ["-", "-"])
-        self.assertIn("glued, height/width 1: 2 of 3 runs reached no peak up to the target strain: no strength is drawn", made.remarks)
+        self.assertIn("glued, height/width 1: 2 of 3 runs reached no peak up to the target strain: its strength is not compared", made.remarks)
         self.assertEqual(made.remarks[-1], "1 of 18 runs failed: no mean contains them")
         self.assertLess(max(len(line) for table in [*made.head, *ratios] for line in table.text().splitlines()[:-1]), 121)
 
@@ -199,15 +199,28 @@ class Cases(OfStudies):
     def test_strengths_under_pressures_have_a_line_of_failure(self):
         cases = [platens("dry steel", 0.57, 2, 40e6 + 4 * p, p) for p in (0.0, 5e6, 10e6)]
         study = {**friction(), "cases": cases, "comparisons": []}
-        self.assertIn("study.csv is not there: no line of failure is fitted", self.page(study).remarks)
-        rows = "".join(f"{one['name']},{seed},done,{one['strength_pa']['mean'] + more}\n"
-                       for one in cases for seed, more in ((1, 1e6), (2, -1e6)))
-        made = self.page(study, **{"study.csv": "case,seed,status,strength_pa\n" + rows})
+        self.assertIn("without envelopes: no line of failure", self.page(study).remarks[-1])
+        keys = ("pressure_low_pa", "pressure_high_pa", "cohesion_pa", "cohesion_error_pa", "friction_angle_deg", "friction_angle_error_deg",
+                "q_pa", "q_error_pa", "k", "k_error", "residual_error_pa", "largest_miss", "hoek_brown_sc_pa", "hoek_brown_m")
+        said = dict(zip(keys, (0, 10e6, 11e6, 0.2e6, 37, 1.5, 40e6, 0.4e6, 4, 0.1, 0.5e6, 0.06, 38e6, 12)))
+        lost = {**dict.fromkeys(keys), "runs": 1, "reason": "strengths at fewer than two pressures: no line"}
+        names = [one["name"] for one in cases]
+        steel = {"name": "dry_steel", "cases": names, "runs": 6, **said, "reason": "1 of 7 runs failed", "packings": [
+            {"seed": 1, "runs": 3, **said, "q_pa": 41e6, "k_error": None}, {"seed": 2, **lost}]}
+        self.assertEqual(self.page({**study, "envelopes": [{"name": "", "cases": names, **lost}]}).remarks[-1], f"dry steel: {lost['reason']}")
+        made = self.page({**study, "envelopes": [steel]})
         points, lines = next(section.tables for section in made.sections if section.heading == "Failure under pressure")
         self.assertEqual(points.rows[1], ["5", "3", "58.0 ... 62.0", "4", "64.75", "60.5"])  # 40 (1 + 3.7 (5 / 40)^0.86), 40 + 4.1 x 5
-        self.assertEqual([row[:4] for row in lines.rows[:2]], [["1", "3", "41", "4"], ["2", "3", "39", "4"]])
-        self.assertEqual(lines.rows[2][4][:3], "10 ")  # c = q / (2 sqrt k)
-        self.assertIn("failure_envelope", self.pictures(made))
+        self.assertEqual(lines.rows, [["1", "3", "41 +- 0.4", "4", "11 +- 0.2", "37 +- 1.5"], ["2", "1", "-", "-", "-", "-"],
+                                      ["all", "6", "40 +- 0.4", "4 +- 0.1", "11 +- 0.2", "37 +- 1.5"]])
+        self.assertIn("1 of 7 runs failed", lines.note)
+        drawn, _ = self.curves(self.pictures(made)["failure_envelope"], 0)
+        line, curve = (next(drawn[label] for label in drawn if start in label) for start in ("40.0 + 4.00 s3", "sc = 38.0 MPa, m = 12.0"))
+        numpy.testing.assert_allclose(line.get_xydata()[[0, -1]], [[0, 40], [10, 80]])
+        self.assertAlmostEqual(curve.get_ydata()[-1], 10 + 38 * math.sqrt(12 * 10 / 38 + 1))
+        self.assertIn("standard error 0.5 MPa", line.get_label())
+        vary = {**parameters("vary", *cases), "varied": ["confining_pressure_pa"], "envelopes": [steel]}
+        self.assertIn("failure_envelope", self.pictures(self.page(vary)))
 
     def test_several_studies_are_in_one_figure_and_kinds_are_not_mixed(self):
         self.page(friction())

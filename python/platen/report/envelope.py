@@ -1,10 +1,12 @@
-"""Failure under pressure: the line through strengths, Mohr's circles, what codes and laboratories give. Stresses in MPa."""
+"""Failure under pressure: the line through strengths, Mohr's circles, what codes and laboratories give. Stresses in MPa. The line of a
+study is that of its study.json; one is fitted here through single runs that are compared."""
 import math
 from collections import namedtuple
 
 import numpy
 
-from .house import BLACK, BLUE, CYCLE, GREEN, VERMILION, titled
+from .house import BLACK, BLUE, CYCLE, GREEN, MPA, VERMILION, titled
+from .run import number_in
 
 LEAST_MISS = 0.05  # of the strength: a line that misses it by more is shown beside a curve
 
@@ -36,6 +38,16 @@ class Line(namedtuple("Line", "count low high q k error q_error k_error cohesion
     @property
     def curve_words(self):
         return f"Hoek and Brown: sc = {self.sc:.1f} MPa, m = {self.m:.1f}"
+
+
+_IN_STUDY = (("pressure_low_pa", MPA), ("pressure_high_pa", MPA), ("q_pa", MPA), ("k", 1), ("residual_error_pa", MPA), ("q_error_pa", MPA),
+             ("k_error", 1), ("cohesion_pa", MPA), ("friction_angle_deg", 1), ("cohesion_error_pa", MPA), ("friction_angle_error_deg", 1),
+             ("largest_miss", 1), ("hoek_brown_sc_pa", MPA), ("hoek_brown_m", 1))  # as Line, behind its count
+
+
+def line_of(said):
+    """The Line of one of the `envelopes` of study.json, or of one of their `packings`."""
+    return Line(said["runs"], *(number_in(said, key) * factor for key, factor in _IN_STUDY))
 
 
 def fit_line(pressure, strength):

@@ -9,7 +9,7 @@ import numpy
 
 from ..errors import InputError
 from ..results import Study, runs
-from .envelope import fit_line, mohr, strength_en_1998_3, strength_over_pressure, strength_richart
+from .envelope import line_of, mohr, strength_en_1998_3, strength_over_pressure, strength_richart
 from .house import BLACK, CYCLE, GPA, GREY, MARKS, MM, MPA, chart, digits, legend_over, plain_decades, scatter_bars, titled
 from .pages import Page, Section, Table
 from .precision import section_of_accuracy, section_of_target
@@ -288,7 +288,7 @@ def _verdicts(study):
     for case in study.cases.values():
         if case.without_peak:
             remarks.append(f"{study.words(case)}: {case.without_peak} of {case.packings} runs reached no peak up to the target strain: "
-                           "no strength is drawn")
+                           "its strength is not compared")
         lost = f"{case.runs - case.packings} of {case.runs} runs failed" if case.packings < case.runs else ""
         for key in DRAWN if study.kind in PARAMETERS else DRAWN[:1]:
             why = _reasons(study.folder, case.name, key) or lost if math.isnan(case.figures[key].mean) or case.without_peak else ""
@@ -300,47 +300,44 @@ def _verdicts(study):
 
 
 def _section_of_failure(study, remarks):
-    """Strength over the pressure on the sides, lines of failure, Mohr's circles; None where no specimen has two pressures."""
+    """Strength over the pressure on the sides, lines of failure and Mohr's circles, of each of the study's envelopes; None where it
+    has none."""
     pictures, tables, pressure = [], [], "confining_pressure_pa"
-    groups = {name: cases for name, cases in study.groups(["surface", *(key for key in study.columns if key != pressure)]).items()
-              if len({case.labels.get(pressure, 0) for case in cases}) > 1}
-    if not groups:
-        return None
-    if not (study.folder / "study.csv").exists():
-        remarks.append("study.csv is not there: no line of failure is fitted")
-        return None
-    table = Study(study.folder).table
-    for name, cases in groups.items():
-        at = {case.name: case.labels.get(pressure, 0) for case in cases if not case.without_peak}
-        rows = [k for k, of in enumerate(table["case"]) if of in at and table["status"][k] == "done" and table["strength_pa"][k] > 0]
-        p, s, seeds = numpy.array([at[table["case"][k]] for k in rows]), table["strength_pa"][rows] * MPA, table["seed"][rows]
-        if len(set(p)) < 2:
-            remarks.append(f"{name}: strengths at fewer than two pressures, no line of failure")
+    if pressure in study.columns and "envelopes" not in study.said:
+        remarks.append("study.json is of an earlier version, without envelopes: no line of failure; --resume writes it anew")
+    for said in listed(study.said, "envelopes"):
+        cases = [study.cases[name] for name in said["cases"]]
+        others = ["surface", *(key for key in study.columns if key != pressure)]
+        name, line = study.words(cases[0], others) if study.kind in PLATENS else said["name"], line_of(said)
+        levels = sorted((case.labels.get(pressure, 0), case.figures["strength_pa"]) for case in cases)
+        levels = [(s3, of) for s3, of in levels if math.isfinite(of.mean)]
+        if math.isnan(line.k):
+            remarks.append(f"{name}: {said['reason']}")
             continue
-        levels = sorted((at[case.name], case.figures["strength_pa"]) for case in cases if at.get(case.name) in p)
-        line, fc = fit_line(p, s), levels[0][1].mean if levels[0][0] == 0 else math.nan
+        fc = levels[0][1].mean if levels[0][0] == 0 else math.nan
         laws = [[digits(value if s3 > 0 else math.nan) for value in (
             (of.mean - fc) / (s3 or 1), strength_en_1998_3(fc, s3), strength_richart(fc, s3))] for s3, of in levels]
-        lines = [(f"{seed:.0f}", fit_line(p[seeds == seed], s[seeds == seed])) for seed in sorted(set(seeds))] + [("all", line)]
+        lines = [(f"{one['seed']}", line_of(one)) for one in listed(said, "packings")] + [("all", line)]
+        note = f"s1 = q + k s3, through all points of a packing, and of all. +-: standard error. {said.get('reason', '')}".strip()
         tables += [Table(["pressure (MPa)", "packings", "strength (MPa)", "(s1 - fc) / s3", "EN 1998-3 (MPa)", "Richart (MPa)"],
                          [[f"{s3:.4g}", str(of.packings), of.words(".1f"), *law] for (s3, of), law in zip(levels, laws)], name),
                    Table(["packing (seed)", "points", "q (MPa)", "k", "c (MPa)", "phi (degrees)"],
                          [[of, str(one.count), *(digits(value) + (f" +- {error:.2g}" if error > 0 else "") for value, error in (
                              (one.q, one.q_error), (one.k, one.k_error), (one.cohesion, one.cohesion_error), (one.phi, one.phi_error)))]
-                          for of, one in lines], "", "s1 = q + k s3, through all points of a packing, and of all. +-: standard error.")]
+                          for of, one in lines], "", note)]
         points = [(s3, of.mean, of.low, of.high) for s3, of in levels]
-        caption = (f"{name}: above, strength over the pressure on the sides, the line fitted to all packings, and what EN 1998-3 and "
-                   f"Richart give for the same unconfined strength; below, Mohr's circles and the tangent of that line. {BARS}")
+        caption = (f"{name}: above, strength over the pressure on the sides, the line through the strengths of all packings, and what EN "
+                   f"1998-3 and Richart give for the same unconfined strength; below, Mohr's circles and the tangent of that line. {BARS}")
         pictures.append(chart("failure_envelope" + (f"_{len(pictures)}" if pictures else ""), caption, strength_over_pressure, mohr,
                               points=points, line=line, heights=[3.0, 3.4]))
-    return Section("Failure under pressure", pictures, tables)
+    return Section("Failure under pressure", pictures, tables) if pictures else None
 
 
 # ---- pages
 def _page_of_cases(studies):
     """Of one study, or of several in the same figures."""
     several, platens, (leads, tables) = len(studies) > 1, studies[0].kind in PLATENS, head(studies)
-    remarks, ratios, pictures, failure = [], [], [], None
+    remarks, ratios, pictures = [], [], []
     for study in studies:
         start = f"{study.name}: " if several else ""
         lead, further = _verdicts(study)
@@ -352,10 +349,11 @@ def _page_of_cases(studies):
             part = copy(studies[0])
             part.cases = {case.name: case for case in cases}
             pictures += _pictures_of_platens([part], f"_{len(pictures)}" if pictures else "", name)
-        failure = _section_of_failure(studies[0], remarks)
     else:
         pictures = _pictures_of_platens(studies) if platens else _pictures_of_parameters(studies)
-    if not pictures and failure is None:
+    said = len(remarks)
+    failure = None if several else _section_of_failure(studies[0], remarks)
+    if not pictures and failure is None and len(remarks) == said:
         count, differ = sum(len(study.cases) for study in studies), any(study.columns for study in studies)
         why = ("no case", "one case")[count] if count < 2 else "no case has a figure" if differ else "cases do not differ"
         remarks.append(f"{why}: there is no curve to draw")
