@@ -42,7 +42,7 @@ MORE = {
         "No display is needed.",
         "--laboratory draws a measured curve beside that of the run, with the differences in stiffness, strength and strain. The file is read "
         "as a laboratory writes it: any header that names stress or load and strain or displacement with their units, comma, semicolon or tab, "
-        "decimal comma, %, per mille, kN and mm.",
+        "decimal comma, %, per mille, kN and mm. --curve writes it as platen-calibrate reads it.",
     ],
 }
 

@@ -83,6 +83,7 @@ Json json_of(const Goals &goals, std::size_t k, const Judged &judged) {
   const Goal &goal = goals.all()[k];
   Json one;
   one["key"] = goal.key;
+  one["name"] = goal.target.name();
   one["target"] = goal.target.text;
   one["wanted"] = goal.curve ? 0 : goal.target.value;
   one["tolerance"] = goal.target.tolerance;

@@ -55,6 +55,15 @@ std::vector<std::string> replaced(const std::vector<std::string> &entries,
   return all;
 }
 
+// Entries that `others` do not have, without their sections: "Friction static = 0".
+std::string changes_of(const std::vector<std::string> &entries, const std::vector<std::string> &others) {
+  std::string text;
+  for (const std::string &one : entries)
+    if (std::find(others.begin(), others.end(), one) == others.end())
+      text += (text.empty() ? "" : ", ") + one.substr(one.rfind('/', one.find(" =")) + 1);
+  return text;
+}
+
 // What is measured: the figure, its test, its unit.
 std::string read_figure(const std::string &what, Target &to) {
   if (what == "young modulus" || what == "poisson ratio") {
@@ -208,37 +217,37 @@ double Target::unit() const {
   return figure.size() > pascal.size() && figure.substr(figure.size() - pascal.size()) == pascal ? 1e6 : 1;
 }
 
-std::string Target::words() const {
-  std::string what;
+std::string Target::name() const {
+  const std::string pressure = "Loading/Confining pressure = ";
   switch (kind) {
     case TargetKind::young_modulus:
-      return "Young's modulus, GPa";
+      return "Young's modulus";
     case TargetKind::poisson_ratio:
       return "Poisson's ratio";
     case TargetKind::strength:
-      what = "compressive strength";
-      break;
+      return "compressive strength";
     case TargetKind::tension:
-      what = program == "brazilian" ? "splitting strength" : "tensile strength";
-      break;
+      return program == "brazilian" ? "splitting strength" : "tensile strength";
     case TargetKind::strength_at_pressure:
-      what = "triaxial strength";
-      break;
+      for (const std::string &one : entries)
+        if (one.rfind(pressure, 0) == 0) return "strength at " + one.substr(pressure.size());
+      return "triaxial strength";
     case TargetKind::strain_at_peak:
-      what = "strain at peak";
-      break;
+      return "strain at peak";
     case TargetKind::secant_ratio:
-      what = "secant Poisson's ratio";
-      break;
+      return "secant Poisson's ratio";
     case TargetKind::curve:
-      what = "miss of the curve";
-      break;
+      return "miss of the curve";
     default:
-      what = figure + (kind == TargetKind::ratio ? ", ratio" : "");
+      break;
   }
+  const std::string what = figure == "strength_pa" ? "strength" : figure;
+  return kind == TargetKind::ratio ? what + " over " + changes_of(over, entries) : what;
+}
+
+std::string Target::words() const {
   const char *units = unit() == 1e9 ? ", GPa" : unit() == 1e6 ? ", MPa" : unit() == 1e-3 ? ", mm/m" : "";
-  return (number > 0 && !(entries.empty() && over.empty()) ? fmt::format("({}) ", number) : "") + what +
-         units;
+  return (number > 0 ? fmt::format("({}) ", number) : "") + name() + units;
 }
 
 } // namespace platen::apps

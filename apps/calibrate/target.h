@@ -43,7 +43,8 @@ struct Target {
 
   bool is_elastic() const { return program.empty(); }
   std::string key() const;   // of summary.json, "triaxial_strength_pa"
-  std::string words() const; // "target 3, strength, MPa"
+  std::string name() const;  // "strength at 9 MPa"
+  std::string words() const; // "(3) strength at 9 MPa, MPa"
   double unit() const;       // that words() names, SI
 };
 

@@ -15,7 +15,8 @@ namespace platen::apps {
 namespace {
 
 constexpr const char *allowed_columns =
-    "Allowed: strain_platen or strain_gauge, then stress_pa or stress_mpa, with a comma between them.";
+    "Allowed: strain_platen or strain_gauge, then stress_pa or stress_mpa, with a comma between them; "
+    "platen-report --laboratory FILE --curve NEW makes one of a laboratory's file.";
 
 // `text` is the line, of which a character that nobody sees is named.
 [[noreturn]] void fail(const std::filesystem::path &path, int line, const std::string &reason,

@@ -110,6 +110,19 @@ class Page(Folder):
         self.assertTrue((folder / "pictures/laboratory.png").is_file())
         self.assertRegex(out, r"strength.*30.*28\.6")
 
+    def test_a_laboratory_file_becomes_a_curve_to_calibrate_on(self):
+        measured, curve = self.folder / "mine.csv", self.folder / "curve.csv"
+        strain = [0, 0.5, 1, 1.5, 2]  # mm/m
+        measured.write_text("strain (mm/m);stress (MPa)\n" + "".join(f"{e};{10 * e}\n".replace(".", ",") for e in strain))
+        status, out, err = call("--laboratory", measured, "--curve", curve)
+        self.assertEqual((status, err), (0, ""))
+        self.assertIn("4 points are in", out)
+        self.assertEqual(curve.read_text(), "strain_platen,stress_pa\n0.0005,5000000\n0.001,10000000\n0.0015,15000000\n0.002,20000000\n")
+        self.refused(f"--curve = {curve} is there already", "--laboratory", measured, "--curve", curve)
+        self.refused("--curve needs --laboratory", "--curve", self.folder / "other.csv")
+        measured.write_text("mm,kN\n0,0\n1,100\n2,50\n")
+        self.refused("needs the height of the specimen", "--laboratory", measured, "--curve", self.folder / "other.csv")
+
 
 class Refused(Folder):
     def test_bad_input_ends_with_status_two_and_one_line(self):

@@ -28,6 +28,8 @@ OPTIONS = (
     ("--pictures", {"metavar": "FORMS", "default": ""}, "Further files of each chart: pdf, svg, or pdf,svg"),
     ("--laboratory", {"metavar": "FILE"}, "A measured curve (CSV as a laboratory writes it), drawn with that of the run, with differences"),
     ("--columns", {"metavar": "NAMES"}, "Columns of that file where its header does not name them: \"strain=A,stress=B\""),
+    ("--curve", {"metavar": "FILE"}, "Write that curve as platen-calibrate reads it (Calibrate/Curve 1); draws nothing. FOLDER may be left "
+     "out where the file has strains and stresses"),
     ("--fields", FLAG, "Also write stress, strain, displacement and damage of all frames on one grid: "
      "fields.pvd for ParaView, into FOLDER"),
     ("--state", FLAG, "List the content of the newest checkpoint (names, units, sizes, least and largest number); draws nothing"),
@@ -73,6 +75,23 @@ def _draw(options):
     sys.stdout.flush()
 
 
+def _write_curve(options):
+    """The measured curve, over the specimen of the run where one is given; nothing that is there is overwritten."""
+    from .laboratory import of_specimen, read
+    from .run import TestRun
+    if not options.laboratory:
+        raise InputError("--curve needs --laboratory")
+    if os.path.lexists(options.curve):
+        raise InputError(f"--curve = {options.curve} is there already. Allowed: a new file")
+    file, columns = options.laboratory, options.columns
+    curve = of_specimen(TestRun(options.folder), file, columns) if options.folder else read(file, columns)
+    rises = [k for k in range(len(curve.strain)) if curve.strain[k] > max([0, *curve.strain[:k]])]  # each strain once, from 0 on
+    with open(options.curve, "x", encoding="utf-8") as out:
+        out.writelines(["strain_platen,stress_pa\n", *(f"{curve.strain[k]:.9g},{curve.stress[k]:.9g}\n" for k in rises)])
+    if not options.quiet:
+        print(*curve.remarks, f"{len(rises)} points are in {options.curve}", sep="\n")
+
+
 def main(arguments=None):
     """The program; its exit status."""
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it tells of its cache of fonts
@@ -92,6 +111,9 @@ def main(arguments=None):
         if ranks > 1:
             raise InputError(f"mpirun has started {ranks} processes of platen-report, which runs in one. Allowed: without mpirun; "
                              "platen-compress and platen-brazilian run on several ranks, where they were built with MPI.")
+        if options.curve:
+            _write_curve(options)
+            return DONE
         if not options.folder:
             raise InputError("no folder is given. See --help")
         if options.state or options.state_diff:

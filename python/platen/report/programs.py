@@ -192,12 +192,13 @@ def _bar(folder, summary, remarks):
 
 
 # ---- calibrations
-def _named(key, value):
-    """Words of a key of a summary with a unit, and its factor from SI."""
+def _named(key, value, name=None):
+    """Words of a key of a summary, or its name, with a unit, and its factor from SI; of a second one of its kind the key ends in "_2"."""
+    key = re.sub(r"_\d+$", "", key)
     unit, factor = ("degrees", 180 / math.pi) if key.endswith("_rad") else ("", 1)
     if key.endswith("_pa"):
         unit, factor = ("GPa", GPA) if abs(value) >= 1e9 else ("MPa", MPA)
-    return with_unit(words_of_key(key.removesuffix("_rad")), unit), factor
+    return with_unit(name or words_of_key(key.removesuffix("_rad")), unit), factor
 
 
 def ratios(axes, targets):
@@ -213,7 +214,7 @@ def ratios(axes, targets):
     axes.axvline(1, color=BLACK, lw=1)
     axes.margins(x=0.1)
     axes.set(xlabel="Calibrated value over target", ylim=(len(targets) - 0.4, -0.6))
-    axes.set_yticks(range(len(targets)), [words_of_key(target["key"]) for target in targets])
+    axes.set_yticks(range(len(targets)), [target.get("name") or words_of_key(target["key"]) for target in targets])
     axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=3)
 
 
@@ -243,7 +244,7 @@ def abacus(axes, rows, key, title):
 def _section_of_targets(summary, remarks):
     rows, drawn, found = [], [], []
     for target in summary["targets"]:
-        name, factor = _named(target["key"], target["wanted"])
+        name, factor = _named(target["key"], target["wanted"], target.get("name"))
         target["value"], is_curve = target["wanted"] * factor, target["key"].startswith("curve_miss")
         target["spreads"] = spreads = [over_packings(target[key], factor) if key in target else Spread() for key, *_ in JUDGED]
         misses = [number_in(target, key + "_miss") if is_curve else math.nan for key, *_ in JUDGED]
