@@ -102,7 +102,9 @@ std::vector<std::string> missed(const Goals &goals, const Found &found) {
     std::size_t against = k;
     for (std::size_t other = 0; other < pulls.size(); ++other)
       if (pulls[k].dot(pulls[other]) < std::min(0.0, pulls[k].dot(pulls[against]))) against = other;
-    if (against != k) line += "; against it pulls " + goals.all()[at.goals[against]].words;
+    if (against != k)
+      line += "; against it pulls " + goals.all()[at.goals[against]].words +
+              ": drop one of the two, or give it a wider tolerance";
     lines.push_back(line);
   }
   return lines;

@@ -147,8 +147,9 @@ std::vector<std::string> gaps(const Goals &goals, const Judged &judged) {
     if (std::isnan(miss)) {
       lines.push_back(fmt::format("{}: was not measured, {}", goal.words, tolerance));
     } else if (goal.curve) {
-      lines.push_back(fmt::format("{}: off by {:.3g} % of its largest stress (root mean square), {}",
-                                  goal.words, 100 * miss, tolerance));
+      lines.push_back(fmt::format("{}: off by {:.3g} % of its largest stress (root mean square: {}), {}",
+                                  goal.words, 100 * miss, branches_of_curve(*goal.curve, by.curves[k]),
+                                  tolerance));
     } else {
       const double factor = got / wanted;
       constexpr double worth_a_factor = 1.5;

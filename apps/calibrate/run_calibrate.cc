@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <numeric>
 #include <optional>
 #include <sstream>
 
@@ -12,6 +14,7 @@
 #include "apps/calibrate/trials.h"
 #include "apps/output/file.h"
 #include "apps/output/machine.h"
+#include "apps/output/progress.h"
 #include "apps/output/stop_signal.h"
 #include "apps/programs.h"
 #include "apps/run/app_output.h"
@@ -27,8 +30,12 @@
 namespace platen::apps {
 namespace {
 
-// Each test is a scene of its own: what it cannot be is told before anything runs.
-void require_tests(const Scene &scene, const CommandLine &command, const Goals &goals) {
+// Each test is a scene of its own: what it cannot be is refused before anything runs. Returns what all tests
+// of a packing take by counting, to their largest strains, seconds of one core; those that cannot be counted
+// 0.
+double require_tests(const Scene &scene, const CommandLine &command, const Goals &goals) {
+  constexpr double threads = 2; // that counted_costs supposes
+  std::vector<double> seconds(goals.tests().size(), 0);
   for (const Goal &goal : goals.all())
     for (const std::size_t place : {goal.test, goal.other}) {
       const SpecimenTest &test = goals.tests()[place];
@@ -41,11 +48,14 @@ void require_tests(const Scene &scene, const CommandLine &command, const Goals &
           for (const std::string &entry : test.entries)
             if (note.find(": note: " + entry.substr(0, entry.find(" =")) + " =") != std::string::npos)
               throw InputError(note);
+        const double counted = threads * counted_costs(led_to).seconds;
+        seconds[place] = std::isfinite(counted) ? counted : 0;
       } catch (const InputError &error) {
         scene.parameters->refuse(goal.target.entry,
                                  std::string("leads to a test that cannot be run:\n") + error.what());
       }
     }
+  return std::accumulate(seconds.begin(), seconds.end(), 0.0);
 }
 
 // How many wave crossings the tests of wanted strengths are to take, and what helps where they are too few.
@@ -65,10 +75,16 @@ std::string pace_of_tests(const Scene &scene, const CommandLine &command, const 
 
 std::string description(const Scene &scene, const CommandLine &command, const Goals *goals) {
   const Calibrate &c = calibrate_of(scene);
+  const double seconds = goals != nullptr ? require_tests(scene, command, *goals) : 0,
+               packings = c.most_trials * c.seeds + c.verification_seeds;
+  const std::string time = seconds > 0
+                               ? fmt::format("  {} trials at most: {} of one core, to the largest strains\n",
+                                             c.most_trials, duration_text(seconds * packings))
+                               : "";
   return title_of(scene) +
          fmt::format("\n  {}: {} seeds to calibrate on, {} to judge by\n", word_of(calibrate_modes, c.mode),
                      c.seeds, goals != nullptr ? c.verification_seeds : 0) +
-         (goals != nullptr ? wishes(*goals) + pace_of_tests(scene, command, *goals) : "");
+         (goals != nullptr ? wishes(*goals) + pace_of_tests(scene, command, *goals) + time : "");
 }
 
 void tell_bounds(const Scene &scene, Trials &trials, RunLog &log, Json &s) {
@@ -182,7 +198,6 @@ void write_found(const CommandLine &command, const Scene &scene, const Goals &go
 int run_calibrate(const CommandLine &command, const Scene &scene) {
   std::optional<Goals> goals; // a curve that is none is found before anything is written
   if (calibrate_of(scene).mode == CalibrateMode::search) goals.emplace(scene);
-  if (goals) require_tests(scene, command, *goals);
   const std::string said = description(scene, command, goals ? &*goals : nullptr);
   if (command.dry_run) {
     fmt::print("{}", said);

@@ -43,6 +43,7 @@ private:
   bool done() const { return met_.has_value(); }
   bool ends(const Measured &measured) const;
   int most() const { return elastic_ ? most_elastic : calibrate_of(scene_).most_trials; }
+  bool bends_a_curve() const; // by a parameter whose effect on it no formula tells
   void learn(std::size_t trial);
   void settle();
   bool try_all(const std::vector<Eigen::VectorXd> &x);
@@ -71,6 +72,12 @@ bool Pass::ends(const Measured &measured) const {
     return elastic_ ? std::abs(goals_.miss(k, measured)) <= elastic_precision
                     : goals_.surely_met(k, measured);
   });
+}
+
+bool Pass::bends_a_curve() const {
+  return space_.free(Knob::compression_limits) && std::any_of(of_.begin(), of_.end(), [&](std::size_t k) {
+           return goals_.all()[k].curve.has_value();
+         });
 }
 
 // Whether any of them tells something.
@@ -150,7 +157,7 @@ Found Pass::operator()() {
       x = space_.scaled(*x, Knob::tensile_strength, weaker);
       continue;
     }
-    const bool differences = calibrate_of(scene_).measures_differences() && !elastic_;
+    const bool differences = !elastic_ && (calibrate_of(scene_).measures_differences() || bends_a_curve());
     if (differences && differences_ == 0 && !done()) take_differences(*x, difference);
     settle();
     x = model_.next();

@@ -19,7 +19,8 @@ constexpr double at_bound = 1e-3, on_bound = 1e-9;      // of the room between b
 constexpr double least_share = 0.1;
 
 struct Wants {
-  bool young = false, poisson = false, compressive = false, tensile = false, pressure = false, any = false;
+  bool young = false, poisson = false, compressive = false, tensile = false, pressure = false, curve = false,
+       any = false;
   explicit Wants(const Calibrate &c) {
     for (const Target &t : c.targets) {
       const TargetKind kind = t.kind;
@@ -28,6 +29,7 @@ struct Wants {
       compressive = compressive || kind == TargetKind::strength || kind == TargetKind::curve;
       tensile = tensile || kind == TargetKind::tension;
       pressure = pressure || kind == TargetKind::strength_at_pressure;
+      curve = curve || kind == TargetKind::curve;
       any = any || !t.is_elastic();
     }
   }
@@ -47,6 +49,9 @@ std::vector<Knob> needed_knobs(const Scene &scene) {
     knobs.push_back(scene.bond.is<dem::CohesiveBeam>() ? Knob::radius_multiplier : Knob::stiffness_ratio);
   if (wants.any) knobs.push_back(Knob::tensile_strength);
   if (both) knobs.push_back(Knob::shear_strength);
+  // A curve bends where bonds yield.
+  if (wants.curve && !scene.bond.list("compression_limits").empty())
+    knobs.push_back(Knob::compression_limits);
   // Elasto-damage-plastic bonds have neither; without moments there is nothing to count.
   if (both && bends(scene)) knobs.push_back(Knob::moment_contribution);
   if (scene.bond.has("friction_angle") && (both || wants.pressure)) knobs.push_back(Knob::friction_angle);

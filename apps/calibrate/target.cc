@@ -19,8 +19,8 @@ namespace {
 
 // In tension and in splitting specimens fail at smaller strains, and splitting is slower.
 constexpr double tension_strain = 0.25, splitting_strain = 0.5, splitting_rate = 0.25;
-// Mean radii of a disc's ends that are ground off; of the diameter under a strip.
-constexpr double disc_end_layer = 1, strip_share = 0.1;
+// Mean radii of a disc's ends that are ground off; of strips in the diameter.
+constexpr double disc_end_layer = 1, strips_across = 10;
 
 // What stands in front of `mark`, which both lose; all of it where there is no mark.
 std::string before(std::string &text, const std::string &mark) {
@@ -187,7 +187,7 @@ void complete_test(Target &to, const Scene &scene, double tension_rate) {
   if (s.ends == dem::EndPreparation::ground) add_number("Specimen/End layer", disc_end_layer, "");
   add_number("Loading/Axial rate", l.rate * splitting_rate * s.width() / s.height, " m/s");
   add_number("Loading/Target strain", splitting_strain * l.target_strain, "");
-  if (!(scene.platens.strip_width > 0)) add_number("Platens/Strip width", strip_share * s.width(), " m");
+  if (!(scene.platens.strip_width > 0)) add_number("Platens/Strip width", s.width() / strips_across, " m");
 }
 
 std::string Target::key() const {

@@ -1,5 +1,7 @@
 #include "apps/calibrate/target_curve.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -124,6 +126,19 @@ double root_mean_square(const std::vector<double> &values) {
   for (const double value : values)
     squares += value * value;
   return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+std::string branches_of_curve(const TargetCurve &wanted, const std::vector<double> &stress) {
+  const std::vector<double> points = wanted.sampled(), misses = misses_of_curve(wanted, stress);
+  const auto split = std::max_element(points.begin(), points.end()) - points.begin() + 1;
+  std::string text =
+      fmt::format("largest stress {:.3g} of {:.3g} MPa, rising branch off by {:.3g} %",
+                  1e-6 * *std::max_element(stress.begin(), stress.end()), 1e-6 * wanted.largest_stress(),
+                  100 * root_mean_square({misses.begin(), misses.begin() + split}));
+  if (misses.begin() + split != misses.end())
+    text += fmt::format(", after the peak by {:.3g} %",
+                        100 * root_mean_square({misses.begin() + split, misses.end()}));
+  return text;
 }
 
 } // namespace platen::apps

@@ -335,6 +335,12 @@ TEST_F(CurveFile, a_known_curve_has_the_miss_that_it_was_given) {
   for (double &value : stress)
     value += 3e6;
   EXPECT_NEAR(root_mean_square(misses_of_curve(curve, stress)), 0.1, 1e-12); // of 30 MPa
+  // Half of its 16 points lie on the way to the peak.
+  stress = curve.sampled();
+  for (std::size_t k = 0; k < stress.size(); ++k)
+    stress[k] -= k < 8 ? 6e6 : 1.5e6;
+  EXPECT_EQ(branches_of_curve(curve, stress),
+            "largest stress 26 of 30 MPa, rising branch off by 20 %, after the peak by 5 %");
 }
 
 TEST_F(CurveFile, faults_are_refused_with_their_line) {
