@@ -120,7 +120,7 @@ Target strength_target(double value, double pressure) {
   if (!given(pressure)) return to;
   to.kind = TargetKind::strength_at_pressure;
   to.entries = {"Loading/Confinement = particles",
-                "Loading/Confining pressure = " + shortest_text(pressure) + " Pa"};
+                "Loading/Confining pressure = " + in_usual_unit(pressure, "Pa")};
   return to;
 }
 
