@@ -209,6 +209,78 @@ TEST(TargetLine, completes_the_tests_of_tension_and_splitting) {
   EXPECT_TRUE(entries("strength_pa: 40 MPa").empty());
 }
 
+TEST(Trial, ends_when_its_figures_are_known) {
+  Scene scene = yielding_scene();
+  scene.loading.target_strain = 0.01;
+  SpecimenTest test;
+  const auto has = [&](const std::string &entry) {
+    const std::vector<std::string> all = entries_of_trials(scene, test);
+    return std::find(all.begin(), all.end(), entry) != all.end();
+  };
+  test.figures = {"strength_pa"};
+  EXPECT_TRUE(has("Loading/Stop at residual = 0.8"));
+  test.figures.emplace_back("middle_damage"); // of a stress that has fallen to 0.8 of the peak
+  EXPECT_TRUE(has("Loading/Stop at residual = 0.75"));
+  EXPECT_FALSE(has("Bond/Calibrated figures ="));
+  scene.bond.calibrated.figures = {CalibratedFigure::elastic};
+  EXPECT_TRUE(has("Bond/Calibrated figures ="));
+  test.curve_strain = 0.02;
+  EXPECT_FALSE(has("Loading/Stop at residual = 0.75"));
+  EXPECT_TRUE(has("Loading/Target strain = 0.02"));
+}
+
+// Stress 10 GPa times the strain of the gauge, half of that of the platens, after a cell of 3 MPa has taken 1
+// mm/m.
+TEST(Trial, reads_a_curve_in_the_sense_of_its_test) {
+  const fs::path folder = fs::temp_directory_path() / ("platen_trial_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  SpecimenTest test;
+  test.program = "compress", test.curve_strain = 1.6e-3, test.curve_of_gauge = true;
+  for (const double sign : {1.0, -1.0}) {
+    std::ofstream file(folder / "history.csv");
+    file << "time_s,axial_strain_platen,axial_strain_gauge,axial_stress_top_pa,axial_stress_bottom_pa\n0,0,0,"
+            "0,0\n";
+    for (int k = 0; k <= 20; ++k) {
+      const double gauge = 1e-4 * k;
+      file << 1 + k << ',' << sign * (2 * gauge + 1e-3) << ',' << sign * (gauge + 1e-3) << ','
+           << sign * (11e9 * gauge + 3e6) << ',' << sign * (9e9 * gauge + 3e6) << '\n';
+    }
+    file.close();
+    const Json summary{{"test", sign > 0 ? "compression" : "tension"}, {"consolidation_end_time_s", 1}};
+    TrialResult result = result_of(test, summary, folder);
+    ASSERT_EQ(result.curve.size(), curve_points);
+    EXPECT_NEAR(result.curve.front(), 1e6, 1);
+    EXPECT_NEAR(result.curve.back(), 16e6, 1);
+    test.curve_of_gauge = false, test.curve_strain = 8e-3; // ends before it: the last reading
+    result = result_of(test, summary, folder);
+    EXPECT_NEAR(result.curve[1], 5e6, 1);
+    EXPECT_NEAR(result.curve.back(), 20e6, 1);
+    test.curve_of_gauge = true, test.curve_strain = 1.6e-3;
+  }
+  fs::remove_all(folder);
+}
+
+TEST(Trial, that_was_too_fast_or_not_valid_has_a_reason_and_no_number) {
+  SpecimenTest test;
+  test.figures = {"strength_pa"};
+  const TrialResult fast = result_of(test,
+                                     {{"quasi_static", false},
+                                      {"peak_reached", true},
+                                      {"strength_pa", 4e7},
+                                      {"signs_of_haste", {"36 wave crossings"}}},
+                                     "");
+  EXPECT_TRUE(fast.too_fast());
+  EXPECT_TRUE(std::isnan(fast.number("strength_pa")));
+  const TrialResult none = result_of(test,
+                                     {{"quasi_static", true},
+                                      {"strength_pa", nullptr},
+                                      {"validity", {{"strength_pa", {"no peak was reached"}}}}},
+                                     "");
+  EXPECT_EQ(none.status, "no peak was reached");
+  EXPECT_FALSE(none.too_fast());
+  EXPECT_TRUE(result_of(test, {{"quasi_static", true}, {"strength_pa", 4e7}}, "").good());
+}
+
 // Any number of the scene: its logarithm where it cannot be zero, itself where it can.
 TEST(ManyTargets, any_entry_of_the_scene_is_found) {
   Scene scene = yielding_scene();
@@ -233,6 +305,10 @@ TEST(ManyTargets, any_entry_of_the_scene_is_found) {
   EXPECT_NEAR(f.choice[knobs[1]], 100, 8);
   EXPECT_TRUE(f.sensitivities.measured); // nothing is known of them beforehand
   EXPECT_EQ(facts_of(c, knobs[1]).column, "Bond_Fracture_energy");
+  const std::vector<SearchParameter> axes = Space(scene, choice_of(scene), knobs).parameters(false);
+  EXPECT_EQ(axes[0].low, 0); // as it is, over its room of 0.5
+  EXPECT_DOUBLE_EQ(axes[0].high, 1);
+  EXPECT_DOUBLE_EQ(axes[1].high - axes[1].low, std::log(100.0) / 2.5);
   const std::vector<std::string> overrides = overrides_of(scene, f.choice);
   ASSERT_EQ(overrides.size(), 2u);
   EXPECT_EQ(overrides[0].rfind("Contact/Rolling friction = 0.", 0), 0u) << overrides[0];
