@@ -3,6 +3,7 @@ calibrated values, parameters of the bonds, curves; of an abacus its moduli."""
 import math
 import re
 from functools import partial
+from textwrap import fill
 
 import numpy
 
@@ -214,7 +215,7 @@ def ratios(axes, targets):
     axes.axvline(1, color=BLACK, lw=1)
     axes.margins(x=0.1)
     axes.set(xlabel="Calibrated value over target", ylim=(len(targets) - 0.4, -0.6))
-    axes.set_yticks(range(len(targets)), [target.get("name") or words_of_key(target["key"]) for target in targets])
+    axes.set_yticks(range(len(targets)), [fill(target.get("name") or words_of_key(target["key"]), 24) for target in targets])
     axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=3)
 
 
