@@ -186,10 +186,12 @@ std::vector<Target> targets_of(Parameters &parameters, const Scene &scene) {
 }
 
 // Its bounds and what it begins with, in the unit of the entry.
-FreedEntry completed(const Parameters &parameters, FreedEntry freed, const std::string &key) {
+FreedEntry completed(Parameters &parameters, FreedEntry freed, const std::string &key) {
   const Entry *entry = parameters.find(freed.path);
-  if (entry == nullptr || entry->is_text || entry->is_file || !entry->words.empty())
-    parameters.refuse(key, "frees " + freed.path + ", which is no number of this scene.");
+  if (entry == nullptr || entry->is_text || entry->is_file || !entry->words.empty() ||
+      entry->allowed.rfind("whole", 0) == 0 || freed.path.rfind("Calibrate/", 0) == 0)
+    parameters.refuse(key,
+                      "frees " + freed.path + ", which is no number of this scene that may take any value.");
   for (const auto &[word, knob] : free_knobs)
     if (facts_of(Calibrate(), knob).entry == freed.path)
       parameters.refuse(key, "is what Calibrate/Free = " + word + " names.");
@@ -201,6 +203,14 @@ FreedEntry completed(const Parameters &parameters, FreedEntry freed, const std::
       parameters.refuse(key, "has " + what + ", \"" + text + "\", that " + error.what() + ".");
     }
   };
+  for (const std::string &bound : {freed.from, freed.to, entry->text})
+    try {
+      entry->read(bound); // the last one is what the scene has
+    } catch (const ValueError &error) {
+      entry->read(entry->text);
+      parameters.refuse(key,
+                        "has a bound, \"" + bound + "\", that " + error.what() + " of " + freed.path + ".");
+    }
   freed.low = read(freed.from, "a bound"), freed.high = read(freed.to, "a bound");
   freed.own = read(entry->text, "an entry to begin with");
   if (!(freed.low < freed.high)) parameters.refuse(key, "has a low bound that is not below the high one.");

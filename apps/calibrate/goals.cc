@@ -202,7 +202,7 @@ Eigen::VectorXd Goals::responses(const std::vector<std::size_t> &goals, const Me
       for (const double one : misses_of_curve(*goal.curve, m.curves[k]))
         all.push_back(scale(k) * one);
     else
-      all.push_back(scale(k) * (goal.is_poisson() ? miss : std::log1p(miss)));
+      all.push_back(scale(k) * (goal.has_logarithm() ? std::log1p(miss) : miss));
   }
   return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }

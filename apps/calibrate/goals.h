@@ -22,8 +22,9 @@ struct Goal {
   std::optional<TargetCurve> curve;
 
   bool wanted() const { return given(target.value) || curve; }
-  bool is_poisson() const { // which may be negative
-    return target.kind == TargetKind::poisson_ratio || target.kind == TargetKind::secant_ratio;
+  bool has_logarithm() const { // others may be negative, or zero
+    return target.kind != TargetKind::poisson_ratio && target.kind != TargetKind::secant_ratio &&
+           target.kind != TargetKind::other;
   }
   bool elastic() const { return target.is_elastic(); }
 };
@@ -71,10 +72,10 @@ public:
   // Of the mean over `training` and further packings, each measured at the choice of the training beside it.
   Correction correction(const std::vector<Measured> &training, const std::vector<Measured> &further) const;
   // What a search makes small, `rows(goal)` after each other of each goal: logarithms of measured over wanted
-  // numbers (of Poisson's ratio, which may be negative, the relative difference), differences of a curve's
-  // points; in multiples of the goal's tolerance over Calibrate/Tolerance. A
-  // specimen that comes to no peak counts as twice too strong where pressure or friction hold it; empty where
-  // another one comes to none.
+  // numbers (of what may be negative or zero, as Poisson's ratio, the relative difference), differences of a
+  // curve's points; in multiples of the goal's tolerance over Calibrate/Tolerance. A specimen that comes to
+  // no peak counts as twice too strong where pressure or friction hold it; empty where another one comes to
+  // none.
   Eigen::VectorXd responses(const std::vector<std::size_t> &goals, const Measured &measured) const;
   Eigen::Index rows(std::size_t goal) const { return goals_[goal].curve ? curve_points : 1; }
   double scale(std::size_t goal) const; // of its responses

@@ -206,6 +206,7 @@ int run_calibrate(const CommandLine &command, const Scene &scene) {
   require_memory(scene, specimen_shape(scene));
   AppOutput output(command, scene);
   catch_stop_signals();
+  if (!command.resume) clear_runs(output.paths, command.overwrite, input_files(scene));
   output.open();
   output.log.info("{}", said);
   const CalibrateMode mode = calibrate_of(scene).mode;

@@ -145,6 +145,10 @@ Target read_target(const std::string &text) {
   if (to.is_elastic() && !(at.empty() && over.empty()))
     throw ValueError(
         "sets entries of a static solve, which has none. Allowed: at and over with other figures");
+  if (to.kind == TargetKind::tension && !over.empty())
+    throw ValueError(
+        "divides tension or splitting by another test. Allowed: strength_pa at Loading/Test = tension, "
+        "... over ...");
   if (!to.over.empty())
     to.kind = TargetKind::ratio;
   else if (to.kind == TargetKind::strength && has_entry(to.entries, "Loading/Confining pressure"))

@@ -97,16 +97,18 @@ dem::NetworkModuli bounds_of(const Scene &scene, const dem::Specimen &specimen) 
 }
 
 std::vector<std::string> entries_of_trials(const Scene &scene, const SpecimenTest &test) {
-  std::vector<std::string> entries{"Effects/Energy ledger = off", "Effects/Crack log = off",
-                                   "Output/Fields = off", "Checkpoint/Every = 0"};
+  std::vector<std::string> entries{"Output/Fields = off", "Checkpoint/Every = 0"};
   if (!scene.bond.calibrated.figures.empty())
     entries.emplace_back("Bond/Calibrated figures ="); // what is calibrated now
-  const bool of_damage = std::any_of(test.figures.begin(), test.figures.end(), [](const std::string &key) {
-    return std::find(usual_figures.begin(), usual_figures.end(), key) == usual_figures.end();
+  const bool usual = std::all_of(test.figures.begin(), test.figures.end(), [](const std::string &key) {
+    return std::find(usual_figures.begin(), usual_figures.end(), key) != usual_figures.end();
   });
-  if (test.curve_strain == 0)
-    entries.push_back(std::string("Loading/Stop at residual = ") + (of_damage ? "0.75" : "0.8"));
-  else if (test.curve_strain > scene.loading.target_strain)
+  if (usual) entries.insert(entries.end(), {"Effects/Energy ledger = off", "Effects/Crack log = off"});
+  if (usual && test.curve_strain == 0) entries.emplace_back("Loading/Stop at residual = 0.8");
+  const bool own_strain = std::any_of(test.entries.begin(), test.entries.end(), [](const std::string &entry) {
+    return entry.rfind("Loading/Target strain =", 0) == 0;
+  });
+  if (!own_strain && test.curve_strain > scene.loading.target_strain)
     entries.push_back("Loading/Target strain = " + shortest_text(test.curve_strain));
   return entries;
 }

@@ -45,8 +45,9 @@ dem::NetworkModuli bounds_of(const Scene &scene, const dem::Specimen &specimen);
 
 // Of trials.csv, whatever is asked for. All are known when the stress has fallen to four fifths of its peak.
 extern const std::vector<std::string> usual_figures;
-// What a run beside its test has in common with all trials: it ends when its figures are known, unless a
-// curve is kept, and writes what is read alone.
+// What a run beside its test has in common with all trials: it writes what is read alone. One of usual
+// figures ends when these are known, unless a curve is kept, without ledger and crack log; any other is as
+// the scene has it, for its figure may depend on where it ends.
 std::vector<std::string> entries_of_trials(const Scene &scene, const SpecimenTest &test);
 // What a run that is done tells. A figure that is not valid has no number, and the status its reason.
 TrialResult result_of(const SpecimenTest &test, const Json &summary, const std::filesystem::path &folder);

@@ -67,9 +67,7 @@ Trials::Trials(const CommandLine &command, const Scene &scene, const OutputPaths
       paths_(paths),
       shared_(packing_cache(scene.specimen.cache).empty() ? paths.packings().string() : ""),
       threads_(threads),
-      log_(log) {
-  if (!command.resume) clear_runs(paths, command.overwrite, {});
-}
+      log_(log) {}
 
 Scene Trials::with(const Choice &choice, unsigned long seed) const {
   return read_scene(command_.scene, entries_of(scene_, command_, {}, choice, seed), *scene_.program);

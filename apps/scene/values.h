@@ -50,8 +50,8 @@ std::vector<double> read_list(const std::string &text, const Quantity &each);
 Expectation read_expectation(const std::string &text, const std::string &si_unit, const Quantity &each);
 // "cones, shear plane": any of `words`.
 Expectation read_expected_words(const std::string &text, const std::vector<std::string> &words);
-// "Effects/Rotation = off, Platens/Degree = 2": path and value of each, tidied; "" is none. `may_clear`: "Specimen/Radius ="
-// takes the value of an entry away.
+// "Effects/Rotation = off, Platens/Degree = 2": path and value of each, tidied; "" is none. `may_clear`:
+// "Specimen/Radius =" takes the value of an entry away.
 std::vector<std::string> read_assignments(const std::string &text, bool may_clear);
 inline std::vector<std::string> read_assignments(const std::string &text) {
   return read_assignments(text, false);

@@ -219,14 +219,18 @@ TEST(Trial, ends_when_its_figures_are_known) {
   };
   test.figures = {"strength_pa"};
   EXPECT_TRUE(has("Loading/Stop at residual = 0.8"));
-  test.figures.emplace_back("middle_damage"); // of a stress that has fallen to 0.8 of the peak
-  EXPECT_TRUE(has("Loading/Stop at residual = 0.75"));
+  EXPECT_TRUE(has("Effects/Energy ledger = off"));
+  test.figures.emplace_back("broken_tension"); // of the end, wherever the scene has it
+  EXPECT_FALSE(has("Loading/Stop at residual = 0.8"));
+  EXPECT_FALSE(has("Effects/Energy ledger = off"));
   EXPECT_FALSE(has("Bond/Calibrated figures ="));
   scene.bond.calibrated.figures = {CalibratedFigure::elastic};
   EXPECT_TRUE(has("Bond/Calibrated figures ="));
-  test.curve_strain = 0.02;
-  EXPECT_FALSE(has("Loading/Stop at residual = 0.75"));
+  test.curve_strain = 0.02, test.figures = {"strength_pa"};
+  EXPECT_FALSE(has("Loading/Stop at residual = 0.8"));
   EXPECT_TRUE(has("Loading/Target strain = 0.02"));
+  test.entries = {"Loading/Target strain = 0.03"};
+  EXPECT_FALSE(has("Loading/Target strain = 0.02"));
 }
 
 // Stress 10 GPa times the strain of the gauge, half of that of the platens, after a cell of 3 MPa has taken 1
@@ -290,7 +294,7 @@ TEST(ManyTargets, any_entry_of_the_scene_is_found) {
   gap.path = "Bond/Fracture energy", gap.low = 5, gap.high = 500, gap.own = 20;
   rolling.unit = "1", gap.unit = "J/m2";
   c.freed = {rolling, gap};
-  c.targets = {target_of(TargetKind::strength, 40e6), target_of(TargetKind::other, 0.3)};
+  c.targets = {target_of(TargetKind::strength, 40e6, 0.005), target_of(TargetKind::other, 0.3, 0.005)};
   c.targets[1].figure = "middle_damage";
   const std::vector<Knob> knobs = knobs_of(scene);
   ASSERT_EQ(knobs.size(), 2u);
