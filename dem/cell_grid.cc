@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 
 #include "base/parallel.h"
@@ -16,71 +17,129 @@ namespace {
 // every larger one searches the grids of smaller ones, never the other way round. Reaches below the
 // smallest class are in it too.
 constexpr int most_classes = 24;
-constexpr double cell_slack = 1e-6; // cells; far above the round-off of a place in them
+constexpr double cell_slack = 1e-6; // cells; far above the round-off of a place near the origin
 
-// Cells of one edge length over the bounding box of some spheres, capped in number so that a lost particle
-// cannot exhaust memory.
-struct Grid {
-  double largest = 0; // m, radius
-  Vector3 low;
-  double inverse_edge = 1;
-  std::array<int, 3> cells{1, 1, 1};
-  std::vector<int> start, member; // members of cell c: member[start[c] .. start[c + 1]), ascending
-
-  Grid(const Vector3 *centres, const double *radii, const std::vector<int> &spheres, double margin) {
-    Vector3 high = low = centres[spheres[0]], zero;
+// Cubic cells of one edge length, found by a hash of their place. Memory and cost depend on how many spheres
+// there are, not on the space that they span: one that flies away costs nothing.
+class HashedCells {
+public:
+  // `by_larger`: larger spheres will search too, which reach many cells at once. Where few spheres share a
+  // cell these are made longer.
+  HashedCells(const Vector3 *centres, const double *radii, const std::vector<int> &spheres, double margin,
+              bool by_larger) {
+    Vector3 zero;
     for (const int i : spheres) {
-      largest = std::max(largest, radii[i]);
-      for (int k = 0; k < 3; ++k) {
-        low[k] = std::min(low[k], centres[i][k]);
-        high[k] = std::max(high[k], centres[i][k]);
-        zero[k] += 0 * centres[i][k];
-      }
-    }
-    // No cell holds such a centre, and no edge is long enough for an infinite box.
-    if (!(norm_squared(zero) == 0 && std::isfinite(norm_squared(high - low))))
-      throw NotFinite("the place of a sphere is not finite");
-    const double most = std::min(4.0 * static_cast<double>(spheres.size()) + 64.0,
-                                 static_cast<double>(most_rows)); // of the numbers of cells
-    double edge = 2 * largest + std::max(margin, 0.0);
-    if (!(edge > 0)) edge = 1; // points
-    for (;; edge *= 1.26) {
-      double product = 1;
+      largest_ = std::max(largest_, radii[i]);
       for (int k = 0; k < 3; ++k)
-        product *= std::floor((high[k] - low[k]) / edge) + 1;
-      if (product <= most) break;
+        zero[k] += 0 * centres[i][k];
     }
-    inverse_edge = 1.0 / edge;
-    for (int k = 0; k < 3; ++k)
-      cells[k] = static_cast<int>((high[k] - low[k]) * inverse_edge) + 1;
-    start.assign(static_cast<std::size_t>(cells[0]) * cells[1] * cells[2] + 1, 0);
-    std::vector<int> cell(spheres.size());
-    for (std::size_t s = 0; s < spheres.size(); ++s) {
-      cell[s] = index(range(centres[spheres[s]], 0).from);
-      ++start[cell[s] + 1];
+    if (!(norm_squared(zero) == 0)) throw NotFinite("the place of a sphere is not finite");
+    const double edge = 2 * largest_ + std::max(margin, 0.0);
+    if (edge > smallest_edge) inverse_edge_ = 1.0 / edge; // points: any cells will do
+    std::vector<Cell> cell = cells_of(centres, spheres);
+    while (by_larger && keys_in(cell) > 8 + most_keys_a_sphere * static_cast<double>(spheres.size())) {
+      inverse_edge_ *= 0.5;
+      cell = cells_of(centres, spheres);
     }
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    member.resize(spheres.size());
-    std::vector<int> next(start.begin(), start.end() - 1);
+    std::size_t buckets = 64;
+    while (buckets < 2 * spheres.size())
+      buckets *= 2;
+    last_bucket_ = buckets - 1;
+    start_.assign(buckets + 1, 0);
+    for (const Cell &c : cell)
+      ++start_[bucket(c) + 1];
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    members_.resize(spheres.size());
+    std::vector<int> next(start_.begin(), start_.end() - 1);
     for (std::size_t s = 0; s < spheres.size(); ++s)
-      member[next[cell[s]]++] = spheres[s];
+      members_[static_cast<std::size_t>(next[bucket(cell[s])]++)] = {key(cell[s]), spheres[s]};
   }
 
-  // Cells within `reach` (m) of a place.
-  struct Range {
-    std::array<int, 3> from, to;
-  };
-  Range range(const Vector3 &x, double reach) const {
-    Range r;
+  double largest() const { return largest_; } // m, radius
+
+  // visit(sphere) for every one whose centre may lie within `reach` (m) of a place along each axis. Looks at
+  // the cells there, or at all spheres where these are fewer.
+  template <class Visit>
+  void near(const Vector3 &x, double reach, const Visit &visit) const {
+    Cell from, to;
+    double cells = 1;
     for (int k = 0; k < 3; ++k) {
-      const double last = cells[k] - 1, at = (x[k] - low[k]) * inverse_edge;
-      const double span = reach > 0 ? reach * inverse_edge + cell_slack : 0.0;
-      r.from[k] = static_cast<int>(std::clamp(std::floor(at - span), 0.0, last));
-      r.to[k] = static_cast<int>(std::clamp(std::floor(at + span), 0.0, last));
+      const double at = std::clamp(x[k] * inverse_edge_, -most_slots, most_slots);
+      const double span = std::max(reach, 0.0) * inverse_edge_ + cell_slack + round_off * std::abs(at);
+      from[k] = slot(at - span);
+      to[k] = slot(at + span);
+      cells *= static_cast<double>(to[k] - from[k] + 1);
     }
-    return r;
+    if (cells > std::min(static_cast<double>(members_.size()) + 27, most_cells)) {
+      for (const Member &member : members_)
+        visit(member.sphere);
+      return;
+    }
+    for (std::int64_t z = from[2]; z <= to[2]; ++z)
+      for (std::int64_t y = from[1]; y <= to[1]; ++y) {
+        const std::uint64_t row_key = key({0, y, z}), row_bucket = bucket_of_row(row_key);
+        // In runs of cells whose keys and buckets follow one another: one, but where either begins anew.
+        for (std::int64_t x0 = from[0]; x0 <= to[0];) {
+          const std::uint64_t cut = static_cast<std::uint64_t>(x0) & key_mask, wanted = row_key | cut;
+          const std::size_t b = (row_bucket + static_cast<std::uint64_t>(x0)) & last_bucket_;
+          const std::uint64_t run = std::min({static_cast<std::uint64_t>(to[0] - x0) + 1, key_mask + 1 - cut,
+                                              static_cast<std::uint64_t>(last_bucket_ + 1 - b)});
+          for (int m = start_[b], end = start_[b + run]; m < end; ++m)
+            if (members_[m].key - wanted < run) visit(members_[m].sphere);
+          x0 += static_cast<std::int64_t>(run);
+        }
+      }
   }
-  int index(const std::array<int, 3> &c) const { return (c[2] * cells[1] + c[1]) * cells[0] + c[0]; }
+
+private:
+  using Cell = std::array<std::int64_t, 3>;
+  struct Member {
+    std::uint64_t key;
+    int sphere;
+  };
+  static constexpr double smallest_edge = 1e-300, most_slots = 1e15, round_off = 1e-15;
+  static constexpr double most_cells = 1e6; // fewer than keys along an axis, so that none comes twice
+  static constexpr int key_bits = 21;       // of each axis: cells of one key are two million edges apart
+  static constexpr std::uint64_t key_mask = (std::uint64_t{1} << key_bits) - 1;
+
+  static constexpr double most_keys_a_sphere = 0.8;
+
+  std::vector<Cell> cells_of(const Vector3 *centres, const std::vector<int> &spheres) const {
+    std::vector<Cell> cell(spheres.size());
+    for (std::size_t s = 0; s < spheres.size(); ++s)
+      for (int k = 0; k < 3; ++k)
+        cell[s][k] = slot(centres[spheres[s]][k] * inverse_edge_);
+    return cell;
+  }
+  static double keys_in(const std::vector<Cell> &cells) {
+    std::vector<std::uint64_t> keys;
+    for (const Cell &c : cells)
+      keys.push_back(key(c));
+    std::sort(keys.begin(), keys.end());
+    return static_cast<double>(std::unique(keys.begin(), keys.end()) - keys.begin());
+  }
+  static std::int64_t slot(double at) {
+    return static_cast<std::int64_t>(std::floor(std::clamp(at, -most_slots, most_slots)));
+  }
+  static std::uint64_t key(const Cell &c) {
+    std::uint64_t sum = 0;
+    for (int k = 0; k < 3; ++k)
+      sum |= (static_cast<std::uint64_t>(c[k]) & key_mask) << (k * key_bits);
+    return sum;
+  }
+  // Neighbours along x are neighbours in memory.
+  static std::uint64_t bucket_of_row(std::uint64_t row_key) {
+    const std::uint64_t mixed = (row_key >> key_bits) * 0x9e3779b97f4a7c15u; // 2^64 over the golden ratio
+    return mixed ^ mixed >> 32;
+  }
+  std::size_t bucket(const Cell &c) const {
+    return (bucket_of_row(key({0, c[1], c[2]})) + static_cast<std::uint64_t>(c[0])) & last_bucket_;
+  }
+
+  double largest_ = 0, inverse_edge_ = 1;
+  std::size_t last_bucket_ = 0;
+  std::vector<int> start_; // members of bucket b: members_[start_[b] .. start_[b + 1]), ascending
+  std::vector<Member> members_;
 };
 
 // Class of each sphere, 0 the largest.
@@ -105,11 +164,11 @@ std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, s
   std::vector<std::vector<int>> spheres(most_classes);
   for (std::size_t i = 0; i < count; ++i)
     spheres[class_of[i]].push_back(static_cast<int>(i));
-  std::vector<Grid> grids; // of the classes that there are
+  std::vector<HashedCells> grids; // of the classes that there are
   std::vector<std::size_t> grid_of(most_classes, 0);
   for (std::size_t c = 0; c < spheres.size(); ++c) {
     grid_of[c] = grids.size();
-    if (!spheres[c].empty()) grids.emplace_back(centres, radii, spheres[c], margin);
+    if (!spheres[c].empty()) grids.emplace_back(centres, radii, spheres[c], margin, !grids.empty());
   }
   std::vector<std::vector<IndexPair>> found(number_of_blocks(count));
   std::vector<std::size_t> checked(found.size(), 0);
@@ -121,18 +180,12 @@ std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, s
       partners.clear();
       const std::size_t own = grid_of[class_of[i]];
       for (std::size_t g = own; g < grids.size(); ++g) {
-        const Grid &grid = grids[g];
-        const Grid::Range near = grid.range(centres[i], radii[i] + grid.largest + margin);
-        for (int z = near.from[2]; z <= near.to[2]; ++z)
-          for (int y = near.from[1]; y <= near.to[1]; ++y)
-            for (int c = grid.index({near.from[0], y, z}); c <= grid.index({near.to[0], y, z}); ++c)
-              for (int m = grid.start[c]; m < grid.start[c + 1]; ++m) {
-                const int j = grid.member[m];
-                if (g == own && j <= static_cast<int>(i)) continue;
-                ++checked[block];
-                const double reach = radii[i] + radii[j] + margin;
-                if (reach > 0 && norm_squared(centres[j] - centres[i]) < reach * reach) partners.push_back(j);
-              }
+        grids[g].near(centres[i], radii[i] + grids[g].largest() + margin, [&](int j) {
+          if (g == own && j <= static_cast<int>(i)) return;
+          ++checked[block];
+          const double reach = radii[i] + radii[j] + margin;
+          if (reach > 0 && norm_squared(centres[j] - centres[i]) < reach * reach) partners.push_back(j);
+        });
       }
       std::sort(partners.begin(), partners.end());
       for (const int j : partners)

@@ -1,4 +1,4 @@
-// Pairs of spheres closer than a margin, by a grid of cells.
+// Pairs of spheres closer than a margin, by a hash of cells.
 #pragma once
 
 #include <vector>
@@ -19,8 +19,9 @@ inline bool operator==(const IndexPair &a, const IndexPair &b) {
 }
 
 // All pairs with |x_j - x_i| < R_i + R_j + margin, sorted by (first, second). Cost grows with n + pairs,
-// whatever the radii. Throws NotFinite where a centre is not finite. `measured`, where given, is told of how
-// many pairs the distance was checked. With a list of blocks: the pairs whose first sphere lies in them.
+// whatever the radii and however far spheres lie from each other. Throws NotFinite where a centre is not
+// finite. `measured`, where given, is told of how many pairs the distance was checked. With a list of blocks:
+// the pairs whose first sphere lies in them.
 std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, std::size_t count,
                                   double margin, std::size_t *measured = nullptr,
                                   const BlockList *listed = nullptr);

@@ -88,6 +88,73 @@ TEST(cell_grid, spheres_on_a_lattice_of_the_cell_size_are_not_lost) {
   expect_same(lattice, .05);
 }
 
+std::size_t distances_examined(const Cloud &c, double margin) {
+  std::size_t examined = 0;
+  near_pairs(c.centre.data(), c.radius.data(), c.centre.size(), margin, &examined);
+  return examined;
+}
+
+// Wherever it flies, and wherever the specimen stands.
+TEST(cell_grid, lost_spheres_do_not_make_the_search_dearer) {
+  const Cloud whole = cloud(3000, {1, 1, 1}, .03, .03, 10);
+  const std::size_t usual = distances_examined(whole, .03);
+  EXPECT_LT(usual, 40u * 3000u);
+  for (const double away : {.1, .5, 5., 1e3, 1e9, 1e18, 1e150}) {
+    Cloud lost = whole;
+    lost.centre.push_back({1.1 + away, .5, .5});
+    lost.radius.push_back(.03);
+    EXPECT_EQ(distances_examined(lost, .03), usual) << away;
+    for (std::size_t k = 0; k < 100; ++k) { // the first hundred, each in a direction of its own
+      const double turn = static_cast<double>(k);
+      lost.centre[k] += (1.5 + away) * Vector3{std::sin(turn), std::cos(turn), std::sin(2 * turn)};
+    }
+    EXPECT_LE(distances_examined(lost, .03), usual) << away;
+  }
+}
+
+// Cells are as long as the largest reach, so that a pair at it lies next to the edge of what is searched.
+TEST(cell_grid, pairs_at_their_reach_are_not_lost_by_rounding) {
+  constexpr double margin = .01;
+  const double radius[2] = {.05, .05}, reach = radius[0] + radius[1] + margin;
+  Random random(13);
+  int near = 0;
+  for (const double away : {0., 1., 1e3, 1e6})
+    for (int k = 0; k < 20000; ++k) {
+      const int axis = k % 3;
+      Vector3 centre[2];
+      for (int c = 0; c < 3; ++c)
+        centre[0][c] = centre[1][c] = away * random.uniform(-1, 1) + random.uniform(0, 1);
+      if (k % 2 == 0) centre[0][axis] = std::floor(centre[0][axis] / reach) * reach; // at an edge of a cell
+      centre[1][axis] = centre[0][axis] + (k % 4 < 2 ? reach : -reach);
+      for (int ulp = k % 5; ulp > 0; --ulp)
+        centre[1][axis] = std::nextafter(centre[1][axis], centre[0][axis]);
+      const bool expected = norm_squared(centre[1] - centre[0]) < reach * reach;
+      near += expected;
+      ASSERT_EQ(near_pairs(centre, radius, 2, margin).size(), expected ? 1u : 0u) << away << " " << k;
+    }
+  EXPECT_GT(near, 20000);
+}
+
+TEST(cell_grid, far_places_lose_no_pair) {
+  for (const double away : {1e3, 1e6, -1e9, 1e12}) {
+    Cloud c = cloud(300, {1, 1, 1}, .04, .05, 11);
+    for (Vector3 &x : c.centre)
+      x += {away, -away, .3 * away};
+    expect_same(c, .01);
+  }
+}
+
+// A large one reaches more cells of small ones than there are small ones, or numbers of cells.
+TEST(cell_grid, spheres_of_any_ratio_of_size_are_found) {
+  for (const double small : {1e-2, 1e-4, 1e-7, 1e-12}) {
+    Cloud c = cloud(200, {3, 3, 3}, small, small, 12);
+    c.centre.push_back({1.5, 1.5, 1.5});
+    c.radius.push_back(1);
+    expect_same(c, 0);
+    EXPECT_LT(distances_examined(c, 0), 2u * 200u) << small;
+  }
+}
+
 TEST(cell_grid, a_centre_that_is_no_place_is_refused) {
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()})
     for (const std::size_t row : {0u, 7u}) {
