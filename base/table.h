@@ -24,12 +24,11 @@ public:
   const std::string &unit() const { return unit_; } // SI, e.g. "m/s"; "1" where there is none
   virtual std::size_t size() const = 0;
   virtual void resize(std::size_t n) = 0;
-  // Row k becomes the former row order[k]; order may be shorter than the column (gather).
-  virtual void permute(const std::vector<int> &order) = 0;
+  // Row k becomes the former row order[k]; order may be shorter than the column (gather). `room`: for so many
+  // further rows memory is taken now.
+  virtual void permute(const std::vector<int> &order, std::size_t room) = 0;
   // The same within the rows from `first` on: row first + k becomes the former row first + order[k].
   virtual void permute_from(std::size_t first, const std::vector<int> &order) = 0;
-  // Blank rows before the former rows `before`, ascending; a row that is named twice gets two.
-  virtual void insert(const std::vector<std::size_t> &before) = 0;
   virtual BlockType type() const = 0;
   virtual std::size_t bytes_per_row() const = 0;
   virtual void *bytes() = 0;
@@ -67,8 +66,10 @@ public:
     values_.resize(n + spare);
     values_[n] = T{};
   }
-  void permute(const std::vector<int> &order) override {
-    std::vector<T> moved(order.size() + spare);
+  void permute(const std::vector<int> &order, std::size_t room) override {
+    std::vector<T> moved;
+    moved.reserve(order.size() + room + spare);
+    moved.resize(order.size() + spare);
     for (std::size_t k = 0; k < order.size(); ++k)
       moved[k] = values_[order[k]];
     values_.swap(moved);
@@ -78,17 +79,6 @@ public:
     for (std::size_t k = 0; k < order.size(); ++k)
       moved[k] = values_[first + static_cast<std::size_t>(order[k])];
     std::copy(moved.begin(), moved.end(), values_.begin() + static_cast<std::ptrdiff_t>(first));
-  }
-  void insert(const std::vector<std::size_t> &before) override {
-    std::size_t end = size(), to = end + before.size(); // of what is still to be moved
-    resize(to);
-    for (std::size_t n = before.size(); n-- > 0;) {
-      const auto at = [&](std::size_t k) { return values_.begin() + static_cast<std::ptrdiff_t>(k); };
-      std::move_backward(at(before[n]), at(end), at(to));
-      to -= end - before[n];
-      end = before[n];
-      values_[--to] = T{};
-    }
   }
   BlockType type() const override { return block_type<T>(unit()); }
   std::size_t bytes_per_row() const override { return sizeof(T); }
@@ -134,19 +124,14 @@ public:
       column->resize(n);
     size_ = n;
   }
-  void permute(const std::vector<int> &order) {
+  void permute(const std::vector<int> &order, std::size_t room = 0) {
     for (auto &column : columns_)
-      column->permute(order);
+      column->permute(order, room);
     size_ = order.size();
   }
   void permute_from(std::size_t first, const std::vector<int> &order) {
     for (auto &column : columns_)
       column->permute_from(first, order);
-  }
-  void insert(const std::vector<std::size_t> &before) {
-    for (auto &column : columns_)
-      column->insert(before);
-    size_ += before.size();
   }
   std::size_t bytes_per_row() const {
     std::size_t sum = 0;

@@ -182,20 +182,17 @@ ExactSum compute_bond_forces(Particles &p, Bonds &b, InstructionSet set, const V
   return work_of_dashpots(found, dt);
 }
 
-ExactSum compute_bond_forces_again(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity,
-                                   double dt, const std::vector<BondBreak> &breaks) {
-  // Before their last forces are overwritten.
+void compute_bond_forces_again(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity,
+                               std::size_t block) {
+  compute_block(p, b, kernels_of(set), columns_of(p, b), gravity, block);
+}
+
+ExactSum undone_work_of_dashpots(const Particles &p, const Bonds &b, double dt,
+                                 const std::vector<BondBreak> &breaks) {
   ExactSum work;
   if (b.dashpot != nullptr)
     for (const BondBreak &broken : breaks)
       work += -0.5 * dt * dashpot_power(p, b, broken.row);
-  std::size_t done = b.blocks.blocks();
-  for (const BondBreak &broken : breaks) {
-    const std::size_t block = b.first[broken.row] / block_rows;
-    if (block == done) continue;
-    compute_block(p, b, kernels_of(set), columns_of(p, b), gravity, block);
-    done = block;
-  }
   return work;
 }
 

@@ -240,10 +240,13 @@ struct BrokenBond {
 ExactSum compute_bond_forces(Particles &particles, Bonds &bonds, InstructionSet set, const Vector3 &gravity,
                              double dt, std::vector<BondBreak> &breaks, const Loop &beside = {},
                              const BlockList *listed = nullptr);
-// The same again for the blocks of rows that have just been broken. Returns what is to be added to the
-// energy: at the end of the drift their dashpots act no more.
-ExactSum compute_bond_forces_again(Particles &particles, Bonds &bonds, InstructionSet set,
-                                   const Vector3 &gravity, double dt, const std::vector<BondBreak> &breaks);
+// The same again for one block, whose rows have just been broken.
+void compute_bond_forces_again(Particles &particles, Bonds &bonds, InstructionSet set, const Vector3 &gravity,
+                               std::size_t block);
+// What is to be added to the energy, J: at the end of the drift the dashpots of rows that have just been
+// broken act no more. To be asked before their blocks are computed again, which overwrites their last forces.
+ExactSum undone_work_of_dashpots(const Particles &particles, const Bonds &bonds, double dt,
+                                 const std::vector<BondBreak> &breaks);
 
 // The same for bonds that remember, which it brings `dt` further, at the velocities of the drift. Rows that
 // have failed in this step are appended to `breaks`, in row order; they are not marked here, and their

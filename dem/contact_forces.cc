@@ -35,6 +35,8 @@ kernels::ContactBlock Contacts::block_of(Particles &p, std::size_t block) {
   kernels::ContactBlock b{};
   const std::size_t first_row = block * block_rows, first_ghost = blocks_.first_ghost[block];
   b.own = static_cast<int>(std::min(block_rows, p.size() - first_row));
+  b.first_pair = blocks_.first_pair[block], b.end_pair = blocks_.first_pair[block + 1];
+  if (!added_.empty()) b.added = added_[block].data(), b.added_count = added_[block].size();
   b.ends = blocks_.ends.data();
   b.force = p.force.data();
   b.ghost_force = blocks_.ghost_force.data() + first_ghost;
@@ -44,9 +46,9 @@ kernels::ContactBlock Contacts::block_of(Particles &p, std::size_t block) {
   return b;
 }
 
-void Contacts::compute(Particles &particles, double dt, const BlockList *listed) {
+void Contacts::compute(Particles &particles, double dt, const BlockList *listed, const Loop &before) {
   cut_blocks(particles);
-  if (table.size() == 0) return;
+  if (table.size() == 0 && before.call == nullptr) return;
   const kernels::ContactColumns c = columns(particles);
   kernels::ContactStep step;
   step.dt = dt, step.dashpot = dashpot_;
@@ -55,15 +57,15 @@ void Contacts::compute(Particles &particles, double dt, const BlockList *listed)
       NormalContacts::with(settings_.normal, [&](auto of) { return of.tangential_ratio(settings_); });
   std::vector<kernels::ContactLoss> lost(blocks_.blocks());
   for_listed_blocks(listed, particles.size(), [&](std::size_t, std::size_t, std::size_t block) {
-    const std::size_t from = blocks_.first_pair[block], to = blocks_.first_pair[block + 1];
-    if (from == to) return;
-    const std::size_t ghost = blocks_.first_ghost[block], ghosts = blocks_.first_ghost[block + 1] - ghost;
-    std::fill_n(blocks_.ghost_force.data() + ghost, ghosts, Vector3{});
-    if (particles.has_rotation()) std::fill_n(blocks_.ghost_torque.data() + ghost, ghosts, Vector3{});
+    if (before.call != nullptr) before.call(before.body, block);
+    const kernels::ContactBlock rows_of_block = block_of(particles, block);
+    const std::size_t most = rows_of_block.end_pair - rows_of_block.first_pair + rows_of_block.added_count;
+    if (most == 0) return;
+    blocks_.clear_ghosts(block);
     thread_local std::vector<int> rows;
     thread_local std::vector<double> losses;
-    if (rows.size() < to - from) rows.resize(to - from), losses.resize(3 * (to - from));
-    lost[block] = loop_(c, block_of(particles, block), step, from, to, rows.data(), losses.data());
+    if (rows.size() < most) rows.resize(most), losses.resize(3 * most);
+    lost[block] = loop_(c, rows_of_block, step, rows.data(), losses.data());
   });
   for (const kernels::ContactLoss &l : lost) {
     friction_work += l.friction;

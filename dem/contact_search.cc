@@ -27,11 +27,6 @@ void drop_bonded(std::vector<IndexPair> &pairs, const Bonds &bonds) {
   pairs.resize(kept);
 }
 
-template <class RestDistance>
-bool before(const RestDistance &a, const IndexPair &b) {
-  return a.pair < b;
-}
-
 } // namespace
 
 void ContactSearch::moved(double distance) {
@@ -54,34 +49,27 @@ bool ContactSearch::update(const Particles &particles, const Bonds *bonds, const
 }
 
 void ContactSearch::rebuild_wide(const Particles &particles, const Bonds *bonds, const BlockList *listed) {
-  wide_ = near_pairs(particles.position.data(), particles.radius.data(), particles.size(), wide_skin_,
-                     nullptr, listed);
-  if (bonds != nullptr) drop_bonded(wide_, *bonds);
-  wide_.shrink_to_fit();
+  std::vector<IndexPair> pairs = near_pairs(particles.position.data(), particles.radius.data(),
+                                            particles.size(), wide_skin_, nullptr, listed);
+  if (bonds != nullptr) drop_bonded(pairs, *bonds);
+  wide_.assign(pairs);
   moved_since_wide_ = 0;
   wide_valid_ = true;
 }
 
 void ContactSearch::rebuild_close(const Particles &particles) {
-  close_.clear();
-  for (const IndexPair &p : wide_) {
+  close_.assign(wide_.rows_if([&](const IndexPair &p) {
     const double reach = particles.radius[p.first] + particles.radius[p.second] + close_skin_;
-    if (norm_squared(particles.position[p.second] - particles.position[p.first]) < reach * reach)
-      close_.push_back(p);
-  }
+    return norm_squared(particles.position[p.second] - particles.position[p.first]) < reach * reach;
+  }));
   moved_since_close_ = 0;
   close_valid_ = true;
 }
 
 bool ContactSearch::add_pair(IndexPair pair) {
   if (!wide_valid_) return false; // the next build finds it
-  bool added = false;
-  for (std::vector<IndexPair> *list : {&wide_, &close_}) {
-    const auto at = std::lower_bound(list->begin(), list->end(), pair);
-    added = at == list->end() || !(*at == pair);
-    if (added) list->insert(at, pair);
-  }
-  return added;
+  wide_.insert(pair);
+  return close_.insert(pair);
 }
 
 void ContactSearch::keep_blocks(const std::vector<char> &marked) {
@@ -90,26 +78,16 @@ void ContactSearch::keep_blocks(const std::vector<char> &marked) {
       return !marked[static_cast<std::size_t>(p.first) / block_rows];
     };
     list.erase(std::remove_if(list.begin(), list.end(), elsewhere), list.end());
-    list.shrink_to_fit();
   });
 }
 
 void ContactSearch::set_rest_distance(IndexPair pair, double distance) {
-  const auto at = std::lower_bound(rest_.begin(), rest_.end(), pair, before<RestDistance>);
-  if (at != rest_.end() && at->pair == pair)
-    at->distance = distance;
-  else
-    rest_.insert(at, {pair, distance});
+  if (!rest_.insert({pair, distance})) rest_.find(pair)->distance = distance;
 }
 
 double ContactSearch::rest_distance(IndexPair pair, const Particles &particles) const {
-  const auto at = std::lower_bound(rest_.begin(), rest_.end(), pair, before<RestDistance>);
-  if (at != rest_.end() && at->pair == pair) return at->distance;
-  return particles.radius[pair.first] + particles.radius[pair.second];
-}
-
-std::size_t ContactSearch::bytes() const {
-  return (wide_.capacity() + close_.capacity()) * sizeof(IndexPair) + rest_.capacity() * sizeof(RestDistance);
+  const RestDistance *own = rest_.find(pair);
+  return own != nullptr ? own->distance : particles.radius[pair.first] + particles.radius[pair.second];
 }
 
 void ContactSearch::describe(Archive &archive) {
@@ -118,20 +96,21 @@ void ContactSearch::describe(Archive &archive) {
   archive("moved_since_close", moved_since_close_, "m", at_least(0));
   archive("wide_valid", wide_valid_);
   archive("close_valid", close_valid_);
-  archive.rows("wide", wide_);
-  archive.rows("close", close_);
-  std::vector<IndexPair> pairs;
+  std::vector<IndexPair> wide = wide_.rows(), close = close_.rows(), pairs;
   std::vector<double> distances;
-  for (const RestDistance &rest : rest_)
+  for (const RestDistance &rest : rest_.rows())
     pairs.push_back(rest.pair), distances.push_back(rest.distance);
+  archive.rows("wide", wide);
+  archive.rows("close", close);
   archive.rows("rest_pairs", pairs);
   archive.rows("rest_distances", distances, "m", above(0));
   if (const StateSource *state = archive.looks_at())
     require_as_many(*state, archive.path("rest_pairs"), archive.path("rest_distances"));
   if (!archive.reads()) return;
-  rest_.clear();
+  std::vector<RestDistance> rest;
   for (std::size_t k = 0; k < pairs.size(); ++k)
-    rest_.push_back({pairs[k], distances[k]});
+    rest.push_back({pairs[k], distances[k]});
+  wide_.assign(wide), close_.assign(close), rest_.assign(rest);
 }
 
 } // namespace platen::dem

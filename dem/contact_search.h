@@ -7,6 +7,7 @@
 #include "base/archive.h"
 #include "dem/bonds.h"
 #include "dem/cell_grid.h"
+#include "dem/pair_lists.h"
 #include "dem/particles.h"
 
 namespace platen::dem {
@@ -34,16 +35,24 @@ public:
   void set_rest_distance(IndexPair pair, double distance);
   double rest_distance(IndexPair pair, const Particles &particles) const;
 
-  const std::vector<IndexPair> &close_pairs() const { return close_; }
-  bool made() const { return wide_valid_ && close_valid_; } // by an update()
-  const std::vector<IndexPair> &wide_pairs() const { return wide_; }
-  std::size_t bytes() const;
+  std::vector<IndexPair> close_pairs() const { return close_.rows(); } // sorted
+  std::size_t close_count() const { return close_.size(); }
+  bool made() const { return wide_valid_ && close_valid_; }          // by an update()
+  std::vector<IndexPair> wide_pairs() const { return wide_.rows(); } // sorted
+  std::size_t bytes() const { return wide_.bytes() + close_.bytes() + rest_.bytes(); }
+  // By pairs that were added one at a time.
+  std::size_t bytes_moved() const { return wide_.bytes_moved() + close_.bytes_moved() + rest_.bytes_moved(); }
   // Drops what does not begin in the blocks that are marked.
   void keep_blocks(const std::vector<char> &marked);
-  // visit(list) for every list, whose entries have the pair that they are sorted by.
+  // visit(rows) for every list, which may change them. Rows are sorted by the pair that they convert to.
   template <class Visit>
   void visit_lists(const Visit &visit) {
-    visit(wide_), visit(close_), visit(rest_);
+    const auto of = [&](auto &list) {
+      auto rows = list.rows();
+      visit(rows);
+      list.assign(rows);
+    };
+    of(wide_), of(close_), of(rest_);
   }
   struct RestDistance {
     IndexPair pair;
@@ -62,8 +71,8 @@ private:
   double wide_skin_, close_skin_;
   double moved_since_wide_ = 0, moved_since_close_ = 0; // m
   bool wide_valid_ = false, close_valid_ = false;
-  std::vector<IndexPair> wide_, close_;
-  std::vector<RestDistance> rest_; // pairs with a rest distance of their own, sorted
+  PairLists<IndexPair> wide_, close_;
+  PairLists<RestDistance> rest_; // pairs with a rest distance of their own
 };
 
 } // namespace platen::dem

@@ -83,6 +83,7 @@ void Contacts::renew_close(const Particles &particles) {
 }
 
 void Contacts::keep_blocks(const std::vector<char> &marked) {
+  sort_rows();
   search_.keep_blocks(marked);
   std::vector<int> kept;
   for (std::size_t k = 0; k < table.size(); ++k)
@@ -92,25 +93,39 @@ void Contacts::keep_blocks(const std::vector<char> &marked) {
 }
 
 void Contacts::carry_rows(const Particles &particles) {
+  const std::vector<int> before = rows_in_order();
   rows_changed();
-  const std::vector<IndexPair> &pairs = search_.close_pairs();
+  const std::vector<IndexPair> pairs = search_.close_pairs();
   std::vector<int> order(pairs.size(), 0);
   std::vector<unsigned char> fresh(pairs.size(), 0);
-  // Old rows and pairs are both sorted; a pair without an old row starts from a blank one appended at the
+  // Old rows and pairs are both in order; a pair without an old row starts from a blank one appended at the
   // end.
-  const std::size_t old = table.size();
   std::size_t k = 0;
   for (std::size_t n = 0; n < pairs.size(); ++n) {
-    while (k < old && IndexPair{first[k], second[k]} < pairs[n])
+    while (k < before.size() && comes_before(before[k], pairs[n]))
       ++k;
-    fresh[n] = !(k < old && IndexPair{first[k], second[k]} == pairs[n]);
-    order[n] = static_cast<int>(fresh[n] ? old : k);
+    fresh[n] = k == before.size() || pairs[n] < pair_of(before[k]);
+    order[n] = fresh[n] ? static_cast<int>(before.size()) : before[k];
   }
-  table.resize(old + 1);
-  table.permute(order);
+  table.resize(before.size() + 1);
+  table.permute(order, order.size() / 8);
   for (std::size_t n = 0; n < pairs.size(); ++n) {
     if (fresh[n]) begin_row(particles, n, pairs[n]);
   }
+}
+
+// table.size() where the pair has no row.
+std::size_t Contacts::place_of(const IndexPair &pair) const {
+  const auto is_it = [&](std::size_t row) { return first[row] == pair.first && second[row] == pair.second; };
+  const auto end = first.begin() + static_cast<std::ptrdiff_t>(sorted_rows());
+  const auto [from, to] = std::equal_range(first.begin(), end, pair.first);
+  const auto at = second.begin() + (from - first.begin()), last = second.begin() + (to - first.begin());
+  const std::size_t row = static_cast<std::size_t>(std::lower_bound(at, last, pair.second) - second.begin());
+  if (row < static_cast<std::size_t>(to - first.begin()) && is_it(row)) return row;
+  if (!added_.empty())
+    for (const int added : added_[static_cast<std::size_t>(pair.first) / block_rows])
+      if (is_it(static_cast<std::size_t>(added))) return static_cast<std::size_t>(added);
+  return table.size();
 }
 
 void Contacts::begin_row(const Particles &particles, std::size_t k, const IndexPair &pair) {
@@ -122,24 +137,39 @@ void Contacts::begin_row(const Particles &particles, std::size_t k, const IndexP
     (*tangential_stiffness)[k] = settings_.tangential_ratio * coefficient[k];
 }
 
-// The few pairs, ascending, that the list of close ones has gained: what carry_rows() makes of it, by moving
-// what is behind them.
-void Contacts::add_rows(const Particles &particles, const std::vector<IndexPair> &pairs) {
-  const std::vector<IndexPair> &all = search_.close_pairs();
-  if (table.size() + pairs.size() != all.size()) return carry_rows(particles);
-  std::vector<std::size_t> rows, before;
-  for (const IndexPair &pair : pairs) {
-    const auto at = std::lower_bound(all.begin(), all.end(), pair) - all.begin();
-    rows.push_back(static_cast<std::size_t>(at));
-    before.push_back(rows.back() - before.size());
+// A pair that the list of close ones has gained, behind all rows.
+void Contacts::add_row(const Particles &particles, const IndexPair &pair) {
+  const std::size_t row = table.size();
+  table.resize(row + 1);
+  begin_row(particles, row, pair);
+  if (added_.empty()) added_.resize(number_of_blocks(particles_));
+  std::vector<int> &added = added_[static_cast<std::size_t>(pair.first) / block_rows];
+  added.insert(std::lower_bound(added.begin(), added.end(), pair,
+                                [&](int k, const IndexPair &p) { return comes_before(k, p); }),
+               static_cast<int>(row));
+  ++added_rows_;
+  if (stale_ == Stale::none) blocks_.add(pair.first, pair.second, particles_);
+}
+
+void Contacts::sort_rows() {
+  if (added_rows_ == 0) return;
+  if (stale_ == Stale::none) {
+    stale_ = Stale::some;
+    stale_blocks_.assign(blocks_.blocks(), 0);
   }
-  table.insert(before);
-  if (stale_ == Stale::none) stale_blocks_.assign(blocks_.blocks(), 0);
-  if (stale_ == Stale::none) stale_ = Stale::some;
-  for (std::size_t n = 0; n < pairs.size(); ++n) {
-    begin_row(particles, rows[n], pairs[n]);
-    if (stale_ == Stale::some) stale_blocks_[static_cast<std::size_t>(pairs[n].first) / block_rows] = 1;
-  }
+  for (std::size_t block = 0; stale_ == Stale::some && block < added_.size(); ++block)
+    if (!added_[block].empty()) stale_blocks_[block] = 1;
+  table.permute(rows_in_order());
+  added_.clear();
+  added_rows_ = 0;
+}
+
+std::vector<int> Contacts::rows_in_order() const {
+  std::vector<int> order;
+  order.reserve(table.size());
+  for (std::size_t block = 0; block < number_of_blocks(particles_); ++block)
+    for_rows_of_block(block, [&](std::size_t row) { order.push_back(static_cast<int>(row)); });
+  return order;
 }
 
 void Contacts::cut_blocks(const Particles &particles) {
@@ -149,8 +179,8 @@ void Contacts::cut_blocks(const Particles &particles) {
   stale_ = Stale::none;
 }
 
-void Contacts::take_over(const Particles &p, const Bonds &bonds, std::vector<BrokenBond> &broken, double dt) {
-  std::vector<IndexPair> added;
+void Contacts::take_over(const Particles &p, const Bonds &bonds, std::vector<BrokenBond> &broken, double dt,
+                         bool sorted) {
   for (BrokenBond &b : broken) {
     const double ri = p.radius[b.first], rj = p.radius[b.second], c = coefficient_of(p, b.first, b.second);
     const double length = norm(p.position[b.second] - p.position[b.first]);
@@ -159,23 +189,18 @@ void Contacts::take_over(const Particles &p, const Bonds &bonds, std::vector<Bro
     if (rest > length && elastic_energy(settings_.normal, c, rest - length) > b.last.energy)
       rest = length + overlap_of_energy(settings_.normal, c, b.last.energy);
     search_.set_rest_distance({b.first, b.second}, rest);
-    if (search_.add_pair({b.first, b.second})) added.push_back({b.first, b.second});
+    if (search_.add_pair({b.first, b.second})) add_row(p, {b.first, b.second});
   }
   if (!search_.made()) {
     search_.update(p, &bonds);
     carry_rows(p);
-  } else {
-    std::sort(added.begin(), added.end());
-    add_rows(p, added);
   }
-  const std::vector<IndexPair> &pairs = search_.close_pairs(); // one row each
+  if (stale_ != Stale::none || sorted) sort_rows();
   for (BrokenBond &b : broken) {
     b.released = b.last.energy;
     double power = b.power;
-    const IndexPair pair{b.first, b.second};
-    const auto row = std::lower_bound(pairs.begin(), pairs.end(), pair);
-    if (row != pairs.end() && *row == pair)
-      power -= start_contact(p, static_cast<std::size_t>(row - pairs.begin()), dt, b);
+    const std::size_t row = place_of({b.first, b.second});
+    if (row < table.size()) power -= start_contact(p, row, dt, b);
     b.released = std::max(0.0, b.released - 0.5 * dt * power);
   }
 }
@@ -247,11 +272,10 @@ double Contacts::stored_energy(std::size_t k) const {
 
 std::vector<double> Contacts::energy_of_blocks(const BlockList *listed) const {
   std::vector<double> energy(number_of_blocks(particles_));
-  for_listed_blocks(listed, particles_, [&](std::size_t from, std::size_t to, std::size_t block) {
-    std::size_t k = static_cast<std::size_t>(
-        std::lower_bound(first.begin(), first.end(), static_cast<int>(from)) - first.begin());
-    for (; k < table.size() && first[k] < static_cast<int>(to); ++k)
+  for_listed_blocks(listed, particles_, [&](std::size_t, std::size_t, std::size_t block) {
+    for_rows_of_block(block, [&](std::size_t k) {
       if (touching[k]) energy[block] += stored_energy(k);
+    });
   });
   return energy;
 }
@@ -275,6 +299,7 @@ std::size_t Contacts::touching_count() const {
 }
 
 void Contacts::describe(Archive &archive) {
+  sort_rows();
   archive.version(1);
   platen::describe(archive, "friction_work", friction_work, "J");
   platen::describe(archive, "damping_work", damping_work, "J");

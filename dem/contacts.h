@@ -1,6 +1,7 @@
 // Contacts between unbonded spheres: linear or Hertz-Mindlin, with Coulomb friction and rolling resistance.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct ContactBlock;
 struct ContactStep;
 struct ContactLoss;
 using ContactLoop = ContactLoss (*)(const ContactColumns &, const ContactBlock &, const ContactStep &,
-                                    std::size_t first, std::size_t last, int *rows, double *losses);
+                                    int *rows, double *losses);
 } // namespace kernels
 
 struct ContactStiffness {
@@ -32,7 +33,8 @@ public:
   Contacts(const Particles &particles, const ContactSettings &settings, const BondLayout &layout,
            bool energy_ledger = true, InstructionSet instruction_set = best_instruction_set());
 
-  // One row per pair that may touch, sorted by (first, second).
+  // One row per pair that may touch, sorted by (first, second) but for those that broken bonds have left
+  // since sort_rows().
   Table table;
   Column<int> &first = table.add<int>("first", "1");
   Column<int> &second = table.add<int>("second", "1");
@@ -66,20 +68,30 @@ public:
   // Rows of the pairs that are close now, so that their number does not depend on when the lists were made.
   void renew_close(const Particles &particles);
   // Forces of all rows from positions and half-step velocities, added to the particles; what leaves a block
-  // of particles waits in the ghosts of blocks(). History advances by dt.
-  void compute(Particles &particles, double dt, const BlockList *listed = nullptr);
+  // of particles waits in the ghosts of blocks(). History advances by dt. before(block), where given, is
+  // called before the contacts of each block are added.
+  void compute(Particles &particles, double dt, const BlockList *listed = nullptr, const Loop &before = {});
+  // visit(row) for the rows whose first particle lies in a block, in the order of their pairs.
+  template <class Visit>
+  void for_rows_of_block(std::size_t block, const Visit &visit) const;
   const PairBlocks &blocks() const { return blocks_; }
   PairBlocks &blocks() { return blocks_; }
   // Of rows and search lists: drops what does not begin in the blocks of particles that are marked.
   void keep_blocks(const std::vector<char> &marked);
   ContactSearch &search_state() { return search_; }
-  // After rows were put into `table` from elsewhere.
-  void rows_changed() { stale_ = Stale::all; }
+  // After sorted rows were put into `table` from elsewhere.
+  void rows_changed() {
+    stale_ = Stale::all;
+    added_.clear();
+    added_rows_ = 0;
+  }
   // Takes over the pairs of broken bonds (physics: overlap from min(R_i + R_j, initial distance), shear force
   // kept up to the Coulomb limit) and sets what each released, J, >= 0: bond energy minus what its contact
   // holds, less the work that the two differ by in the half step that leads to the break (the kick at its end
   // is the contact's).
-  void take_over(const Particles &particles, const Bonds &bonds, std::vector<BrokenBond> &broken, double dt);
+  // `sorted`: their rows come to their places at once.
+  void take_over(const Particles &particles, const Bonds &bonds, std::vector<BrokenBond> &broken, double dt,
+                 bool sorted = false);
   // J, stored in normal, tangential and rolling springs; added up block by block of particles, so that it
   // does not depend on who has which rows.
   double energy() const;
@@ -100,7 +112,15 @@ private:
   kernels::ContactBlock block_of(Particles &particles, std::size_t block);
   kernels::ContactLoop loop_for(bool rotation, bool ledger, InstructionSet set) const;
   void carry_rows(const Particles &particles);
-  void add_rows(const Particles &particles, const std::vector<IndexPair> &pairs);
+  void add_row(const Particles &particles, const IndexPair &pair);
+  IndexPair pair_of(int row) const {
+    return {first[static_cast<std::size_t>(row)], second[static_cast<std::size_t>(row)]};
+  }
+  bool comes_before(int row, const IndexPair &pair) const { return pair_of(row) < pair; }
+  std::vector<int> rows_in_order() const;
+  void sort_rows();
+  std::size_t sorted_rows() const { return table.size() - added_rows_; }
+  std::size_t place_of(const IndexPair &pair) const;
   void begin_row(const Particles &particles, std::size_t k, const IndexPair &pair);
   void cut_blocks(const Particles &particles);
   double coefficient_of(const Particles &particles, int first, int second) const;
@@ -117,7 +137,29 @@ private:
   kernels::ContactLoop loop_ = nullptr;
   PairBlocks blocks_; // of the rows, as far as current
   enum class Stale { none, some, all } stale_ = Stale::all;
-  std::vector<char> stale_blocks_; // marked where some are
+  std::vector<char> stale_blocks_;      // marked where some are
+  std::vector<std::vector<int>> added_; // rows of each block behind the sorted ones, in order; or empty
+  std::size_t added_rows_ = 0;
 };
+
+template <class Visit>
+void Contacts::for_rows_of_block(std::size_t block, const Visit &visit) const {
+  const auto row_of_particle = [&](std::size_t particle) {
+    const auto end = first.begin() + static_cast<std::ptrdiff_t>(sorted_rows());
+    return static_cast<std::size_t>(std::lower_bound(first.begin(), end, static_cast<int>(particle)) -
+                                    first.begin());
+  };
+  std::size_t row = row_of_particle(block * block_rows);
+  const std::size_t end = row_of_particle((block + 1) * block_rows);
+  if (!added_.empty())
+    for (const int added : added_[block]) {
+      for (const IndexPair pair = pair_of(added); row < end && comes_before(static_cast<int>(row), pair);
+           ++row)
+        visit(row);
+      visit(static_cast<std::size_t>(added));
+    }
+  for (; row < end; ++row)
+    visit(row);
+}
 
 } // namespace platen::dem

@@ -123,10 +123,29 @@ void Model::compute_forces(double dt, const Loop &beside, const std::function<vo
   if (exchange_) return compute_shared(dt, beside, done);
   compute_bonds(dt, nullptr, beside);
   finish_breaks(dt);
-  if (contacts) {
-    StageClock::Lap lap(clock, Stage::contacts);
-    contacts->compute(particles, dt);
-  }
+  compute_contacts(dt, nullptr);
+}
+
+void Model::compute_block_again(std::size_t block) {
+  if (again_[block] != 0)
+    compute_bond_forces_again(particles, *bonds, settings_.instruction_set, settings_.gravity, block);
+}
+
+// Blocks whose bonds have broken are computed again in the loop over contacts, before those of each are
+// added.
+void Model::compute_contacts(double dt, const BlockList *listed) {
+  const auto again = [this](std::size_t block) { compute_block_again(block); };
+  if (!contacts) return compute_again();
+  StageClock::Lap lap(clock, Stage::contacts);
+  contacts->compute(particles, dt, listed, again_.empty() ? Loop{} : loop_of(again_.size(), again));
+  again_.clear();
+}
+
+void Model::compute_again() {
+  StageClock::Lap lap(clock, Stage::bonds);
+  for_each(
+      again_.size(), [this](std::size_t block) { compute_block_again(block); }, 1);
+  again_.clear();
 }
 
 void Model::compute_bonds(double dt, const BlockList *listed, const Loop &beside) {
@@ -151,8 +170,10 @@ void Model::finish_breaks(double dt) {
     note_breaks(bonds->fail_rows(breaks_, particles, time));
   } else {
     break_bonds(dt);
-    works.damping += compute_bond_forces_again(particles, *bonds, settings_.instruction_set,
-                                               settings_.gravity, dt, breaks_);
+    works.damping += undone_work_of_dashpots(particles, *bonds, dt, breaks_);
+    if (again_.empty()) again_.assign(bonds->blocks.blocks(), 0);
+    for (const BondBreak &broken : breaks_)
+      again_[static_cast<std::size_t>(bonds->first[broken.row]) / block_rows] = 1;
   }
   breaks += static_cast<long>(breaks_.size());
   breaks_.clear();
@@ -161,7 +182,7 @@ void Model::finish_breaks(double dt) {
 void Model::break_bonds(double dt) {
   std::vector<BrokenBond> broken = bonds->break_rows(breaks_, particles, time);
   if (contacts)
-    contacts->take_over(particles, *bonds, broken, dt);
+    contacts->take_over(particles, *bonds, broken, dt, exchange_ != nullptr);
   else
     for (BrokenBond &b : broken)
       b.released = b.last.energy - 0.5 * dt * b.power;

@@ -174,12 +174,16 @@ private:
   KickSums sums_;
   Motion motion_;
   std::vector<BondBreak> breaks_; // of the blocks that were computed since the last finish_breaks()
+  std::vector<char> again_;       // blocks whose bonds have broken and are to be computed again; or empty
   std::unique_ptr<Exchange> exchange_;
   bool cut_ = false;             // only own rows are up to date
   std::vector<Crack> unsettled_; // of own rows, while the specimen is cut
   long own_breaks_ = 0;          // since it is shared
   long known_breaks_ = 0, breaks_before_sharing_ = 0;
   void finish_breaks(double dt);
+  void compute_contacts(double dt, const BlockList *listed);
+  void compute_again();
+  void compute_block_again(std::size_t block);
   void break_bonds(double dt);
   void note_breaks(const std::vector<BrokenBond> &broken);
   void count(const Crack &crack);

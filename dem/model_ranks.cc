@@ -31,15 +31,12 @@ void Model::compute_shared(double dt, const Loop &beside, const std::function<vo
   compute_portions(dt, blocks.outer, beside);
   if (done) done();
   finish_breaks(dt);
+  compute_again();
   if (bonds) exchange_->send_bond_ghosts(bonds->blocks);
   compute_portions(dt, blocks.last_inner);
   finish_breaks(dt);
-  if (!contacts) return;
-  {
-    StageClock::Lap lap(clock, Stage::contacts);
-    contacts->compute(particles, dt, &blocks.all);
-  }
-  exchange_->send_contact_ghosts(contacts->blocks());
+  compute_contacts(dt, &blocks.all);
+  if (contacts) exchange_->send_contact_ghosts(contacts->blocks());
 }
 
 // What is done beside comes with the last of them.

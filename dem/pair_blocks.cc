@@ -40,6 +40,8 @@ void PairBlocks::rebuild(const int *first, const int *second, std::size_t pairs,
   const std::size_t count = number_of_blocks(particles);
   const PairBlocks::Cut before{std::move(first_pair), std::move(ends), std::move(first_ghost),
                                std::move(ghost_particle)};
+  added_ghosts.assign(count, {});
+  added_returns.assign(count, {});
   first_pair.assign(1, 0);
   first_ghost.assign(1, 0);
   ends.resize(pairs);
@@ -69,6 +71,7 @@ void PairBlocks::rebuild(const int *first, const int *second, std::size_t pairs,
     first_ghost.push_back(ghost_particle.size());
   }
   ++cut_number_;
+  rotation_ = rotation, row_size_ = row_size;
   const std::size_t ghosts = own_ghosts() + remote.size();
   ghost_force.assign(ghosts, Vector3{});
   ghost_torque.assign(rotation ? ghosts : 0, Vector3{});
@@ -122,22 +125,81 @@ void PairBlocks::order_returns(std::size_t count) {
     returns[next[static_cast<std::size_t>(from.particle)]++] = {from.particle, from.ghost};
 }
 
+void PairBlocks::add(int first, int second, std::size_t particles) {
+  const std::size_t block = static_cast<std::size_t>(first) / block_rows, begin = block * block_rows,
+                    end = std::min(particles, begin + block_rows);
+  int to = second - static_cast<int>(begin);
+  if (static_cast<std::size_t>(second) >= end) {
+    int ghost = ghost_of(static_cast<int>(block), second);
+    if (ghost < 0) ghost = new_ghost(static_cast<int>(block), second);
+    to = static_cast<int>(end - begin) + ghost - static_cast<int>(first_ghost[block]);
+  }
+  ends.push_back({row_size_ * (first - static_cast<int>(begin)), row_size_ * to});
+}
+
+// Behind the ghosts of all blocks.
+int PairBlocks::new_ghost(int block, int particle) {
+  const int ghost = static_cast<int>(ghost_particle.size());
+  ghost_particle.push_back(particle);
+  ghost_force.emplace_back();
+  if (rotation_) ghost_torque.emplace_back();
+  added_ghosts[static_cast<std::size_t>(block)].push_back(ghost);
+  std::vector<AddedReturn> &added = added_returns[static_cast<std::size_t>(particle) / block_rows];
+  const auto place = std::partition_point(added.begin(), added.end(), [&](const AddedReturn &r) {
+    return r.to.particle != particle ? r.to.particle < particle : r.from < block;
+  });
+  added.insert(place, {{particle, ghost}, block});
+  return ghost;
+}
+
+int PairBlocks::block_of_ghost(int ghost) const {
+  const auto after =
+      std::upper_bound(first_ghost.begin(), first_ghost.end(), static_cast<std::size_t>(ghost));
+  return static_cast<int>(after - first_ghost.begin()) - 1;
+}
+
+void PairBlocks::clear_ghosts(std::size_t block) {
+  const auto clear = [&](std::size_t from, std::size_t count) {
+    std::fill_n(ghost_force.begin() + static_cast<std::ptrdiff_t>(from), count, Vector3{});
+    if (rotation_) std::fill_n(ghost_torque.begin() + static_cast<std::ptrdiff_t>(from), count, Vector3{});
+  };
+  clear(first_ghost[block], first_ghost[block + 1] - first_ghost[block]);
+  for (const int ghost : added_ghosts[block])
+    clear(static_cast<std::size_t>(ghost), 1);
+}
+
 int PairBlocks::ghost_of(int block, int particle) const {
   const auto at = [&](std::size_t k) { return ghost_particle.begin() + static_cast<std::ptrdiff_t>(k); };
   const auto first = at(first_ghost[static_cast<std::size_t>(block)]),
              end = at(first_ghost[static_cast<std::size_t>(block) + 1]);
   const auto found = std::lower_bound(first, end, particle);
-  return found != end && *found == particle ? static_cast<int>(found - ghost_particle.begin()) : -1;
+  if (found != end && *found == particle) return static_cast<int>(found - ghost_particle.begin());
+  for (const int ghost : added_ghosts[static_cast<std::size_t>(block)])
+    if (ghost_particle[static_cast<std::size_t>(ghost)] == particle) return ghost;
+  return -1;
 }
 
+// Those of one particle in the order of the blocks that they come from.
 void return_ghosts(Particles &p, const PairBlocks &blocks, std::size_t block) {
-  if (blocks.returns.empty()) return;
+  if (blocks.ghost_force.empty()) return;
   const bool turning = p.has_rotation();
-  for (std::size_t r = blocks.first_return[block]; r < blocks.first_return[block + 1]; ++r) {
-    const PairBlocks::Return &from = blocks.returns[r];
+  const auto give = [&](const PairBlocks::Return &from) {
     p.force[from.particle] += blocks.ghost_force[from.ghost];
     if (turning) (*p.torque)[from.particle] += blocks.ghost_torque[from.ghost];
+  };
+  std::size_t r = blocks.first_return[block];
+  const std::size_t end = blocks.first_return[block + 1];
+  for (const PairBlocks::AddedReturn &added : blocks.added_returns[block]) {
+    const auto comes_before = [&](const PairBlocks::Return &one) {
+      return one.particle != added.to.particle ? one.particle < added.to.particle
+                                               : blocks.block_of_ghost(one.ghost) < added.from;
+    };
+    for (; r < end && comes_before(blocks.returns[r]); ++r)
+      give(blocks.returns[r]);
+    give(added.to);
   }
+  for (; r < end; ++r)
+    give(blocks.returns[r]);
 }
 
 std::size_t PairBlocks::bytes() const {

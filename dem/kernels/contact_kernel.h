@@ -31,8 +31,11 @@ struct ContactColumns {
   const double *radius, *mass;
 };
 
-// Where the forces go: to particles of the block and to its ghosts.
+// Rows of a block of particles, and where their forces go: to the block's particles and to its ghosts.
 struct ContactBlock {
+  std::size_t first_pair, end_pair; // rows
+  const int *added;                 // rows beyond these, in the order of their pairs
+  std::size_t added_count;
   int own; // particles
   const PairBlocks::Ends *ends;
   Vector3 *force, *torque; // of all particles; torque null without rotation
@@ -58,10 +61,9 @@ struct ContactLoss {
   double friction = 0, damping = 0; // J
 };
 
-// Of rows [first, last), those of one block: `rows` has room for all of them, `losses` for three times as
-// many.
+// Of one block: `rows` has room for all its rows, `losses` for three times as many.
 using ContactLoop = ContactLoss (*)(const ContactColumns &, const ContactBlock &, const ContactStep &,
-                                    std::size_t first, std::size_t last, int *rows, double *losses);
+                                    int *rows, double *losses);
 
 struct ContactKernels {
   // Of rows [first, last): those that are closer than their rest distance, or were touching, ascending.

@@ -45,6 +45,23 @@ std::size_t rows_at_work(const ContactColumns &c, std::size_t first, std::size_t
   return found;
 }
 
+// Those of a block, in the order of their pairs.
+std::size_t rows_at_work(const ContactColumns &c, const ContactBlock &b, int *rows) {
+  const auto comes_before = [&](int k, int l) {
+    return c.first[k] != c.first[l] ? c.first[k] < c.first[l] : c.second[k] < c.second[l];
+  };
+  std::size_t found = rows_at_work(c, b.first_pair, b.end_pair, rows);
+  for (std::size_t n = 0; n < b.added_count; ++n) {
+    const int row = b.added[n];
+    if (!is_close(c, static_cast<std::size_t>(row)) && c.touching[row] == 0) continue;
+    std::size_t at = found++;
+    for (; at > 0 && comes_before(row, rows[at - 1]); --at)
+      rows[at] = rows[at - 1];
+    rows[at] = row;
+  }
+  return found;
+}
+
 // What a loop has. `ledger`: sums of what is lost, which cost a loop without them up to 15 % if they are but
 // asked for (bench/results/effects.md).
 template <class NormalLaw, TangentialContact tangential, bool with_dashpots, bool with_rotation,
@@ -245,9 +262,9 @@ PLATEN_INLINE void release(const ContactColumns &c, int k, double *lost) {
 }
 
 template <class Effects>
-ContactLoss compute(const ContactColumns &c, const ContactBlock &b, const ContactStep &s, std::size_t first,
-                    std::size_t last, int *rows, double *losses) {
-  const std::size_t count = rows_at_work(c, first, last, rows);
+ContactLoss compute(const ContactColumns &c, const ContactBlock &b, const ContactStep &s, int *rows,
+                    double *losses) {
+  const std::size_t count = rows_at_work(c, b, rows);
   ContactLoss lost;
   Touch t;
   std::size_t at[lanes]; // among the rows at work

@@ -90,8 +90,10 @@ std::vector<std::array<double, 9>> particle_stress(const Particles &p, const Bon
       pair(bonds->first[k], bonds->second[k], {force.x, force.y, force.z});
     }
   if (contacts != nullptr)
-    for (std::size_t k = 0; k < contacts->table.size(); ++k)
-      if (contacts->touching[k]) pair(contacts->first[k], contacts->second[k], contacts->force[k]);
+    for (std::size_t block = 0; block < number_of_blocks(p.size()); ++block)
+      contacts->for_rows_of_block(block, [&](std::size_t k) {
+        if (contacts->touching[k]) pair(contacts->first[k], contacts->second[k], contacts->force[k]);
+      });
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double volume = sphere_volume(p.radius[i]) / packing_fraction;
     for (double &s : stress[i])

@@ -69,6 +69,24 @@ TEST(lanczos, a_smaller_residual_costs_more_iterations_and_is_nearer) {
   EXPECT_LT(error, 1e-6);
 }
 
+// Who asks whether it is below a bound is told earlier; a bound that is not met changes nothing.
+TEST(lanczos, ends_once_the_value_is_known_to_be_below_a_bound) {
+  const double exact = largest_of_springs(400);
+  LanczosLimits limits;
+  limits.residual = 1e-4;
+  const LargestEigenvalue<Chain> full = largest_eigenvalue(springs, start(400), limits);
+  limits.enough = .999 * exact;
+  const LargestEigenvalue<Chain> above = largest_eigenvalue(springs, start(400), limits);
+  EXPECT_EQ(above.value, full.value);
+  EXPECT_EQ(above.iterations, full.iterations);
+  limits.enough = 1.05 * exact;
+  const LargestEigenvalue<Chain> below = largest_eigenvalue(springs, start(400), limits);
+  EXPECT_LT(below.value, limits.enough);
+  EXPECT_GT(below.value, .99 * exact);
+  EXPECT_LT(below.iterations, full.iterations);
+  EXPECT_GE(below.iterations, limits.least_for_enough);
+}
+
 // A start that is all of one mode leaves nothing to go on to.
 TEST(lanczos, ends_at_once_from_an_eigenvector) {
   Chain mode{std::vector<double>(9)};

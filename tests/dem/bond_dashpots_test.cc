@@ -116,7 +116,9 @@ TEST_P(DashpotsOfBreaks, count_a_block_with_a_break_once) {
   const double power = add_dashpot(p, b, broken, none);
   const std::vector<BondBreak> breaks{{broken, BondState::broken_in_tension}};
   b.break_rows(breaks, p, 0);
-  const ExactSum work = compute_bond_forces_again(p, b, best_instruction_set(), {}, dt, breaks);
+  const ExactSum work = undone_work_of_dashpots(p, b, dt, breaks);
+  compute_bond_forces_again(p, b, best_instruction_set(), {},
+                            static_cast<std::size_t>(b.first[broken]) / block_rows);
   EXPECT_NEAR(work.value(), -.5 * dt * power, 1e-12 * dt * power);
   for (int k = 0; k < static_cast<int>(b.size()); ++k) {
     const Vector3 expected = k == broken ? Vector3{} : before[static_cast<std::size_t>(k)],

@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "base/parallel.h"
+#include "dem/model.h"
+#include "tests/dem/examples.h"
 
 namespace platen::dem {
 namespace {
@@ -96,6 +99,88 @@ TEST(PairBlocks, that_have_changed_are_cut_alone_to_the_same_end) {
     cut(blocks, pairs, particles, &changed);
     expect_cut(blocks, pairs, particles);
     EXPECT_NE(blocks.cut_number(), number);
+  }
+}
+
+// Of so few second particles that each is reached from every block before its own.
+std::vector<Pair> pairs_to_the_last(std::mt19937 &random, int particles, int count) {
+  std::vector<Pair> pairs;
+  for (int k = 0; k < count; ++k)
+    pairs.push_back({static_cast<int>(random() % static_cast<unsigned>(particles - 20)),
+                     particles - 1 - static_cast<int>(random() % 20)});
+  return pairs;
+}
+
+// Behind those that were there, until all are cut again.
+TEST(PairBlocks, that_get_a_pair_reach_its_particles_and_return_in_the_order_of_blocks) {
+  constexpr std::size_t particles = 5000;
+  std::mt19937 random(6);
+  for (const int before : {0, 40, 2000}) {
+    std::vector<Pair> all = pairs_to_the_last(random, particles, before);
+    Pairs pairs(all);
+    PairBlocks blocks;
+    cut(blocks, pairs, particles);
+    for (int more = 0; more < 300; ++more) {
+      const Pair pair = pairs_to_the_last(random, particles, 1).front();
+      pairs.first.push_back(pair.first), pairs.second.push_back(pair.second);
+      blocks.add(pair.first, pair.second, particles);
+      const auto block = static_cast<std::size_t>(pair.first) / block_rows;
+      const int begin = static_cast<int>(block * block_rows),
+                own = static_cast<int>(std::min(particles - block * block_rows, block_rows));
+      ASSERT_EQ(blocks.ends.size(), pairs.first.size());
+      const PairBlocks::Ends ends = blocks.ends.back();
+      ASSERT_EQ(begin + ends.first / 3, pair.first);
+      const int second = ends.second / 3;
+      const std::size_t ghost = blocks.first_ghost[block] + static_cast<std::size_t>(second - own);
+      ASSERT_EQ(second < own ? begin + second : blocks.ghost_particle[ghost], pair.second);
+      if (second >= own) {
+        ASSERT_EQ(blocks.ghost_of(static_cast<int>(block), pair.second), static_cast<int>(ghost));
+      }
+    }
+    // One ghost for each particle that a block reaches, and its return in the order of blocks.
+    std::vector<Pair> reached; // particle, block that it comes from
+    for (std::size_t k = 0; k < pairs.first.size(); ++k)
+      if (pairs.first[k] / static_cast<int>(block_rows) != pairs.second[k] / static_cast<int>(block_rows))
+        reached.push_back({pairs.second[k], pairs.first[k] / static_cast<int>(block_rows)});
+    std::sort(reached.begin(), reached.end());
+    reached.erase(std::unique(reached.begin(), reached.end()), reached.end());
+    // Forces so unlike that each order of a sum has another end.
+    Model model(examples::row(particles, {1, 0, 0}), examples::bonded());
+    Particles &p = model.particles;
+    std::vector<Vector3> expected(particles);
+    for (const auto &[particle, block] : reached) {
+      const double force = (block % 2 == 0 ? 1 : -1) * std::pow(10, 5 * (block % 4)) / 3;
+      const int ghost = blocks.ghost_of(block, particle);
+      ASSERT_GE(ghost, 0);
+      ASSERT_EQ(blocks.ghost_particle[static_cast<std::size_t>(ghost)], particle);
+      blocks.ghost_force[static_cast<std::size_t>(ghost)] = {force, 2 * force, -force};
+      expected[static_cast<std::size_t>(particle)] += {force, 2 * force, -force};
+    }
+    EXPECT_EQ(blocks.own_ghosts(), reached.size()) << "one ghost for each particle that a block reaches";
+    std::fill(p.force.begin(), p.force.end(), Vector3{});
+    for (std::size_t block = 0; block < blocks.blocks(); ++block)
+      return_ghosts(p, blocks, block);
+    for (std::size_t i = 0; i < particles; ++i)
+      ASSERT_EQ(p.force[i].x, expected[i].x) << i;
+    EXPECT_EQ(blocks.ghost_force.size(), blocks.own_ghosts());
+    EXPECT_EQ(blocks.ghost_torque.size(), blocks.own_ghosts());
+    // Forces in ghosts of one block are cleared, and no others.
+    blocks.ghost_force.assign(blocks.own_ghosts(), Vector3{1, 1, 1});
+    blocks.ghost_torque.assign(blocks.own_ghosts(), Vector3{1, 1, 1});
+    blocks.clear_ghosts(1);
+    for (const auto &[particle, block] : reached) {
+      const auto ghost = static_cast<std::size_t>(blocks.ghost_of(block, particle));
+      EXPECT_EQ(norm_squared(blocks.ghost_force[ghost]), block == 1 ? 0 : 3);
+      EXPECT_EQ(norm_squared(blocks.ghost_torque[ghost]), block == 1 ? 0 : 3);
+    }
+    const Pairs sorted([&] {
+      std::vector<Pair> list;
+      for (std::size_t k = 0; k < pairs.first.size(); ++k)
+        list.push_back({pairs.first[k], pairs.second[k]});
+      return list;
+    }());
+    cut(blocks, sorted, particles);
+    expect_cut(blocks, sorted, particles);
   }
 }
 
