@@ -24,6 +24,8 @@ struct LanczosLimits {
   int every = 5; // iterations from one Ritz value to the next
   int most = 300;
   double residual = 0.01; // over the Ritz value, at the end
+  double enough = 0;      // ends once the value is known to be below this, after `least_for_enough`
+  int least_for_enough = 15;
 };
 
 template <class Vector>
@@ -57,6 +59,7 @@ LargestEigenvalue<Vector> largest_eigenvalue(const Apply &apply, Vector x, const
       residual = length * ritz.last_component;
     }
     if (look && done > limits.least && residual <= limits.residual * ritz.value) break;
+    if (look && done >= limits.least_for_enough && ritz.value + residual < limits.enough) break;
     if (length <= 1e-14 * ritz.value) break; // x holds all that the matrix makes of it
     beside.push_back(length);
     before = std::exchange(x, std::move(y));

@@ -41,7 +41,7 @@ struct DashpotFractions {
   double scheme = 1; // phi of Tchamwa and Wielgosz: narrows the limit by sqrt(2 phi - 1)
 };
 // `sought_below`: only where the limit is below this (s) the place that sets it is sought, which costs as
-// much again as half of the limit.
+// much again as half of the limit. Where it is above, the limit may be told too small, but not below this.
 StableStep stable_step(const Particles &particles, const Bonds *bonds, const Contacts *contacts,
                        const std::vector<GroundSpring> &ground, const DashpotFractions &dashpots,
                        double sought_below = std::numeric_limits<double>::infinity());

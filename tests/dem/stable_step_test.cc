@@ -189,5 +189,20 @@ TEST(stable_step, names_the_particle_that_sets_it) {
   EXPECT_EQ(asked.reason, told.reason);
 }
 
+// Who asks whether the limit is below another step is told earlier if it is not, and the same if it is.
+TEST(stable_step, is_sought_as_far_as_the_question_needs) {
+  for (const double dashpot : {0., .2})
+    for (const double local : {0., .6}) {
+      ModelSettings settings = bonded();
+      settings.bond_dashpot = dashpot, settings.local_damping = local;
+      Model model(packed_box(16, 16, 16), settings);
+      const StableStep full = model.stable_step({}, 0), below = model.stable_step({}, 0, 1.002 * full.limit),
+                       far = model.stable_step({}, 0, .5 * full.limit);
+      EXPECT_EQ(below.limit, full.limit) << dashpot << " " << local;
+      EXPECT_GE(far.limit, .5 * full.limit);
+      EXPECT_LE(far.iterations, full.iterations);
+    }
+}
+
 } // namespace
 } // namespace platen::dem
