@@ -43,7 +43,8 @@ Function in_engine(const char *name) {
   std::error_code none;
   const fs::path built = own_folder() / "engine.so",
                  file = fs::exists(built, none) ? built : own_folder() / PLATEN_ENGINE;
-  void *library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL); // global: plug-ins of MPI need its symbols
+  // Lazy: to bind all functions of two hundred libraries at once takes a third of the start.
+  void *library = ::dlopen(file.c_str(), RTLD_LAZY | RTLD_GLOBAL); // global: plug-ins of MPI need its symbols
   void *entry = library == nullptr ? nullptr : ::dlsym(library, name);
   if (entry == nullptr)
     throw std::runtime_error(std::string(::dlerror()) + ". It belongs to platen: install both anew");
