@@ -23,7 +23,7 @@ foreach(name IN LISTS platen_installed)
   install(TARGETS platen_${name} EXPORT PlatenTargets
     ARCHIVE COMPONENT development LIBRARY COMPONENT development NAMELINK_COMPONENT development)
   install(DIRECTORY ${name} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/platen COMPONENT development
-    FILES_MATCHING PATTERN "*.h" PATTERN "kernels" EXCLUDE)
+    FILES_MATCHING PATTERN "*.h")
 endforeach()
 set(platen_cmake ${CMAKE_INSTALL_LIBDIR}/cmake/Platen)
 install(EXPORT PlatenTargets NAMESPACE Platen:: DESTINATION ${platen_cmake} COMPONENT development)
@@ -31,6 +31,7 @@ configure_package_config_file(cmake/PlatenConfig.cmake.in ${CMAKE_BINARY_DIR}/Pl
   INSTALL_DESTINATION ${platen_cmake})
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/PlatenConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/PlatenConfig.cmake ${CMAKE_BINARY_DIR}/PlatenConfigVersion.cmake
+  cmake/PlatenBondLaw.cmake cmake/kernels.cmake
   DESTINATION ${platen_cmake} COMPONENT development)
 
 set(platen_share ${CMAKE_INSTALL_DATADIR}/platen)

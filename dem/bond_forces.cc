@@ -9,7 +9,9 @@
 namespace platen::dem {
 namespace {
 
-const kernels::BondKernels &kernels_of(InstructionSet set) {
+const kernels::BondKernels &kernels_of(InstructionSet set, const BondLaw &law) {
+  if (const auto *outside = std::get_if<OutsideLaw>(&law))
+    return *outside->parameters.calls->kernels[static_cast<std::size_t>(set)];
   return for_set(set, kernels::bond_kernels_baseline, kernels::bond_kernels_avx2,
                  kernels::bond_kernels_avx512);
 }
@@ -155,7 +157,7 @@ double dashpot_power(const Particles &p, const Bonds &b, int row) {
 
 ExactSum compute_bond_forces(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity, double dt,
                              std::vector<BondBreak> &breaks, const Loop &beside, const BlockList *listed) {
-  const kernels::BondKernels &kernels = kernels_of(set);
+  const kernels::BondKernels &kernels = kernels_of(set, b.law);
   const kernels::BondColumns columns = columns_of(p, b);
   std::vector<kernels::BlockFindings> found(b.blocks.blocks());
   for_listed_blocks(
@@ -184,7 +186,7 @@ ExactSum compute_bond_forces(Particles &p, Bonds &b, InstructionSet set, const V
 
 void compute_bond_forces_again(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity,
                                std::size_t block) {
-  compute_block(p, b, kernels_of(set), columns_of(p, b), gravity, block);
+  compute_block(p, b, kernels_of(set, b.law), columns_of(p, b), gravity, block);
 }
 
 ExactSum undone_work_of_dashpots(const Particles &p, const Bonds &b, double dt,
@@ -231,7 +233,7 @@ std::vector<BondTotals> bond_totals_of_blocks(const Particles &p, const Bonds &b
   const kernels::BondColumns columns = columns_of(p, b);
   return totals_by_blocks(p, b, listed, [&](BondTotals &sum, std::size_t first, std::size_t last) {
     double energy[block_rows], force[block_rows];
-    kernels_of(set).measure(columns, b.law, {nullptr, nullptr, energy, force}, first, last);
+    kernels_of(set, b.law).measure(columns, b.law, {nullptr, nullptr, energy, force}, first, last);
     for (std::size_t k = 0; k < last - first; ++k)
       sum += {energy[k], force[k], 0, 0, 0};
   });

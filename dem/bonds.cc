@@ -384,7 +384,7 @@ BondResponse<double> Bonds::response(std::size_t k, const Particles &p) const {
     if (p.has_rotation())
       return elastic(geometry(k),
                      BondMotion<double>{d, rotation((*p.orientation)[i]), rotation((*p.orientation)[j])});
-    if constexpr (!std::decay_t<decltype(elastic)>::needs_rotation)
+    if constexpr (!only_with_rotation<std::decay_t<decltype(elastic)>>)
       return elastic.without_rotation(geometry(k), d);
     else
       throw std::logic_error("a bond that needs rotation has none");

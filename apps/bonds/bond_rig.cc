@@ -35,9 +35,11 @@ BondSection section_of(const dem::ModelSettings &settings, double radius) {
   }
   std::visit(
       [&](const auto &law) {
-        b.tensile_strength = dem::never_if_zero(law.tensile_strength);
-        b.shear_strength = dem::never_if_zero(law.shear_strength);
-        b.moment_contribution = law.moment_contribution;
+        if constexpr (!std::is_same_v<std::decay_t<decltype(law)>, dem::OutsideLaw::Parameters>) {
+          b.tensile_strength = dem::never_if_zero(law.tensile_strength);
+          b.shear_strength = dem::never_if_zero(law.shear_strength);
+          b.moment_contribution = law.moment_contribution;
+        }
       },
       *settings.bond);
   return b;

@@ -27,7 +27,7 @@ void find_number(Parameters &of, const std::string &wanted, const Use &use) {
 
 std::optional<dem::BondParameters> Bond::parameters() const {
   if (!bonded()) return std::nullopt;
-  return dem::BondLaws::chosen(laws, static_cast<std::size_t>(law));
+  return dem::BondLaws::chosen<dem::BondParameters>(laws, static_cast<std::size_t>(law));
 }
 
 bool Bond::remembers() const {

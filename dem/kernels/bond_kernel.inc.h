@@ -109,13 +109,30 @@ BlockFindings compute_forces_with(const BondColumns &c, const BlockColumns &bloc
   return {};
 }
 
+// f(law) of the laws that these kernels are compiled for: all elastic ones that have a word, or the one from
+// outside.
+template <class F>
+auto of_compiled(const BondLaw &law, const F &f) {
+#ifdef PLATEN_OUTSIDE_LAW
+  return f(*static_cast<const PLATEN_OUTSIDE_LAW *>(std::get<OutsideLaw>(law).parameters.law.get()));
+#else
+  using Result = decltype(f(std::declval<const ParallelBond &>()));
+  return of_elastic(law, [&](const auto &one) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(one)>, OutsideLaw>)
+      return Result();
+    else
+      return f(one);
+  });
+#endif
+}
+
 BlockFindings compute_forces_of(const BondColumns &c, const BlockColumns &block, const BondLaw &law,
                                 std::size_t first, std::size_t last) {
   const auto compute = [&](const auto &one) {
     return c.strength_factor != nullptr ? compute_forces_with<true>(c, block, one, first, last)
                                         : compute_forces_with<false>(c, block, one, first, last);
   };
-  return of_elastic(law, compute);
+  return of_compiled(law, compute);
 }
 
 // From the particles' columns, for bonds of any block.
@@ -171,7 +188,7 @@ void measure_of(const BondColumns &c, const BondLaw &law, const BondRowValues &t
     c.strength_factor != nullptr ? measure_with<true>(c, one, to, first, last)
                                  : measure_with<false>(c, one, to, first, last);
   };
-  of_elastic(law, measure_all);
+  of_compiled(law, measure_all);
 }
 
 } // namespace

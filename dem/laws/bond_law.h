@@ -1,22 +1,25 @@
-// The laws that a specimen's bonds may follow, all bonds the same. Loops ask once a block which it is.
+// The laws that a specimen's bonds may follow, all bonds the same: those that have a word, and one from
+// outside. Loops ask once a block which it is.
 #pragma once
 
 #include "dem/laws/cohesive_beam.h"
 #include "dem/laws/elasto_damage_plastic.h"
 #include "dem/laws/interface_moments.h"
 #include "dem/laws/law_list.h"
+#include "dem/laws/outside_law.h"
 #include "dem/laws/parallel_bond.h"
 #include "dem/laws/yielding_parallel_bond.h"
 
 namespace platen::dem {
 
 using BondLaws = LawList<ParallelBond, CohesiveBeam, ElastoDamagePlastic, YieldingParallelBond>;
-using BondLaw = BondLaws::Law;
-using BondParameters = BondLaws::Parameters;
+using AllBondLaws = BondLaws::With<OutsideLaw>;
+using BondLaw = AllBondLaws::Law;
+using BondParameters = AllBondLaws::Parameters;
 
 // Throws BadParameter.
 inline BondLaw bond_law(const BondParameters &parameters) {
-  return BondLaws::law(parameters);
+  return AllBondLaws::law(parameters);
 }
 
 // With bending and twisting, where spheres turn.
@@ -27,6 +30,10 @@ inline bool bends(const BondLaw &law) {
 inline bool needs_rotation(const BondLaw &law) {
   return std::visit([](const auto &l) { return l.needs_rotation; }, law);
 }
+template <class Law>
+constexpr bool only_with_rotation = Law::needs_rotation;
+template <>
+inline constexpr bool only_with_rotation<OutsideLaw> = false; // it says so itself
 // From centre to centre: they act on each other in the middle between the centres, otherwise where their
 // distance is divided as the radii are.
 inline bool centre_to_centre(const BondLaw &law) {

@@ -20,6 +20,10 @@ struct LawList {
   using Parameters = std::variant<typename Laws::Parameters...>;
   using AllParameters = std::tuple<typename Laws::Parameters...>;
 
+  // The same list with one law more.
+  template <class More>
+  using With = LawList<Laws..., More>;
+
   static constexpr std::size_t size = sizeof...(Laws);
   static constexpr std::array<const char *, size> words{Laws::word...};
 
@@ -54,8 +58,9 @@ struct LawList {
     return k;
   }
   // Those of the law in this place.
-  static Parameters chosen(const AllParameters &all, std::size_t place) {
-    Parameters found;
+  template <class Of = Parameters>
+  static Of chosen(const AllParameters &all, std::size_t place) {
+    Of found;
     std::size_t k = 0;
     ((k++ == place ? (void)(found = std::get<typename Laws::Parameters>(all)) : void()), ...);
     return found;

@@ -1,6 +1,8 @@
-// Crushes a small cylinder bare and in a jacket, and loads another in cycles of stress: a boundary, a measure
-// and a loading stage that are not part of the library. Ends with 1 where they do not do what they are for.
+// Crushes a small cylinder bare, in a jacket and with bonds that break by their energy, and loads another in
+// cycles of stress: a boundary, a measure, a bond law and a loading stage that are not part of the library.
+// Ends with 1 where they do not do what they are for.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -9,6 +11,7 @@
 #include <dem/packing/growth.h>
 
 #include "crack_height.h"
+#include "energy_bond.h"
 #include "jacket.h"
 #include "stress_cycles.h"
 
@@ -77,6 +80,31 @@ int main() {
       1e-6 * one.strength, 1e-6 * other.strength, 1e-6 * other.pressure, one.cracks, other.cracks,
       other.residual);
 
+  // A bond law: in place of one of the library.
+  settings = concrete();
+  settings.model.bond = dem::outside_law(EnergyBond{0.4, 5});
+  coupling::PlatenTest weaker(specimen, settings);
+  settings.model.bond = dem::outside_law(EnergyBond{0.4, 20});
+  coupling::PlatenTest tougher(specimen, settings);
+  const Crushed weak = crush(weaker), tough = crush(tougher);
+  std::printf(
+      "bonds that break by energy: %.1f MPa at 5 J/m2, %.1f MPa at 20 J/m2; energy balance closes to %.1e\n",
+      1e-6 * weak.strength, 1e-6 * tough.strength, tough.residual);
+  // One of the library's own from outside, for comparison.
+  settings = concrete();
+  const auto seconds = [](coupling::PlatenTest &test, Crushed &result) {
+    const auto start = std::chrono::steady_clock::now();
+    result = crush(test);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  coupling::PlatenTest inside(specimen, settings);
+  settings.model.bond =
+      dem::outside_law(SameBond(std::get<dem::ParallelBond::Parameters>(*concrete().model.bond)));
+  coupling::PlatenTest outside(specimen, settings);
+  Crushed same, own;
+  const double of_own = seconds(inside, own), of_same = seconds(outside, same);
+  std::printf("the library's parallel bond, and the same from outside: %.3f s and %.3f s\n", of_own, of_same);
+
   // A loading stage: in place of those that the settings describe.
   settings = concrete();
   settings.stages.push_back([](const coupling::PlatenTest &test) -> std::unique_ptr<coupling::Stage> {
@@ -102,6 +130,15 @@ int main() {
   bool holds = check(other.strength > 1.2 * one.strength, "a jacket strengthens");
   holds = check(other.pressure > 1e6, "the jacket presses") && holds;
   holds = check(other.residual < 0.01, "the energy balance closes with it") && holds;
+  holds = check(weak.strength > 1e6 && tough.strength > 1.5 * weak.strength &&
+                    tough.strength < 2.5 * weak.strength,
+                "four times the fracture energy is twice the strength") &&
+          holds;
+  holds = check(weak.residual < 0.01 && tough.residual < 0.01, "the energy balance closes with it") && holds;
+  holds = check(same.strength == own.strength && same.residual == own.residual,
+                "a law from outside gives the bits of "
+                "one inside") &&
+          holds;
   holds = check(one.cracks > 0 && one.cracks < 1, "cracks lie in the specimen") && holds;
   holds =
       check(highest > 8e6 && highest < 8.4e6 && last <= 2e6, "the stress cycles between its bounds") && holds;
