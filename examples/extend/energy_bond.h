@@ -2,6 +2,8 @@
 // its section reaches a fracture energy. In tension if it is longer than at rest, otherwise in shear.
 #pragma once
 
+#include <stdexcept>
+
 #include <base/pi.h>
 #include <dem/laws/outside_law.h>
 #include <dem/laws/parallel_bond.h>
@@ -9,6 +11,13 @@
 struct EnergyBond {
   double stiffness_ratio = 0.4; // k_s / k_n
   double fracture_energy = 10;  // J/m^2
+
+  // Throws std::invalid_argument.
+  EnergyBond(double ratio, double energy) : stiffness_ratio(ratio), fracture_energy(energy) {
+    if (!(ratio >= 0 && energy > 0))
+      throw std::invalid_argument(
+          "energy bond: the stiffness ratio is 0 or more, the fracture energy above 0");
+  }
 
   static constexpr bool needs_rotation = true, centre_to_centre = false, over_distance = false,
                         has_history = false, bonds_by_range = false;
