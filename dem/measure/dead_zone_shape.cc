@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/pi.h"
-#include "dem/measure/cone_fit.h"
+#include "dem/measure/cone.h"
 
 namespace platen::dem {
 namespace {
@@ -12,6 +12,13 @@ namespace {
 constexpr double full = 0.95; // r over Rc from which the rim cuts a section
 constexpr std::size_t least_bins = 3;
 constexpr std::size_t few_bins = 8; // fewer do not tell a dome from a cone: they are halved for that
+
+// A sphere of the specimen, z upwards from the end plane, and whether it is dead.
+struct LabelledPoint {
+  Vector3 x;         // m
+  double weight = 0; // its volume
+  bool inside = false;
+};
 
 // What of a bin of height is dead. Spheres count where their centres are.
 struct Section {
@@ -26,7 +33,6 @@ struct Section {
   }
 };
 
-// The specimen seen from a platen: z upwards from the end plane.
 std::vector<LabelledPoint> seen_from(const Specimen &s, const std::vector<char> &members, End end) {
   std::vector<LabelledPoint> points;
   for (std::size_t i = 0; i < s.size(); ++i) {

@@ -60,13 +60,11 @@ FailureMeasures measure_failure(const Particles &p, const Bonds &b, const Shape 
   m.dead = zones.at_end;
   require_broken(m.dead, zones, b);
   m.opening = zones.opening;
-  const SoundPieces pieces = find_sound_pieces(p, b, shape, soundness);
   m.damage = damage_by_region(p, b, shape);
-  m.sound = measure_cones(p, b, pieces, shape);
   m.end_spread = end_spread(skin_opening(p, b, shape));
   m.planes = sum_up(find_crack_planes(p, b), b);
-  for (std::size_t k = 0; k < pieces.volume.size(); ++k)
-    m.columns += pieces.spans(static_cast<int>(k)) && pieces.share(static_cast<int>(k)) >= least_column;
+  for (const SoundPiece &piece : find_sound_pieces(p, b, shape, soundness))
+    m.columns += piece.spans() && piece.share >= least_column;
   m.broken_share = m.planes.broken / static_cast<double>(b.initial_count());
   m.width = 2 * std::sqrt(shape.cross_section() / pi);
   m.height = shape.height;
@@ -91,12 +89,10 @@ FailureVerdict judge_failure(const FailureMeasures &m) {
 }
 
 void FailureMeasures::describe(Archive &archive) {
-  const bool before_motion = archive.version(2) < 2;
+  const bool before_motion = archive.version(3) < 2; // older ones hold cones by damage as well
   archive("damage_top", damage.end_top, "1", any_value());
   archive("damage_bottom", damage.end_bottom, "1", any_value());
   archive("damage_middle", damage.middle, "1", any_value());
-  archive.part("cone_bottom", sound[bottom_end]);
-  archive.part("cone_top", sound[top_end]);
   if (!before_motion) {
     archive.part("dead_zone_bottom", dead[bottom_end]);
     archive.part("dead_zone_top", dead[top_end]);

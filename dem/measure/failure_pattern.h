@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <limits>
 
-#include "dem/measure/cone.h"
 #include "dem/measure/cracks.h"
 #include "dem/measure/damage.h"
 #include "dem/measure/dead_zone.h"
@@ -18,7 +17,6 @@ struct FailureMeasures {
                         std::numeric_limits<double>::quiet_NaN()};
   std::array<DeadZone, 2> dead;                              // [bottom_end], [top_end]: cones by displacement
   double opening = std::numeric_limits<double>::quiet_NaN(); // m, of the skin since the peak, U (dead_zone.h)
-  std::array<ConePiece, 2> sound;                            // the same by damage
   CrackPlanes planes;
   double end_spread = std::numeric_limits<double>::quiet_NaN(); // of the skin (damage.h)
   double columns = 0; // sound pieces from platen to platen, each at least a twentieth of the volume
@@ -54,10 +52,10 @@ struct FailureVerdict {
 
 // The first rule that holds, in the order of DecidedBy from `one_plane` on: planes come first, for an
 // inclined one leaves a part on each platen that moves with it. The plane of `one_plane` splits where it lies
-// within 15 degrees of the axis and shears up to 65 degrees. Cones are those by displacement; those by damage
-// decide nothing. The bound of damage of a crushed end (0.4) stands between what dry and lubricated platens
-// leave of cylinders twice as high as wide. Cubes' ends are damaged under any platen: where they spread by
-// less than a quarter of what the middle does, friction has held them and they are not called crushed.
+// within 15 degrees of the axis and shears up to 65 degrees. The bound of damage of a crushed end (0.4)
+// stands between what dry and lubricated platens leave of cylinders twice as high as wide. Cubes' ends are
+// damaged under any platen: where they spread by less than a quarter of what the middle does, friction has
+// held them and they are not called crushed.
 FailureVerdict judge_failure(const FailureMeasures &measures);
 
 } // namespace platen::dem

@@ -46,17 +46,12 @@ struct Soundness {
 };
 
 // Sound spheres joined by intact bonds.
-struct SoundPieces {
-  static constexpr int none = -1;
-  std::vector<int> of_particle;            // piece of each row, by volume from the largest; `none`: not sound
-  std::vector<double> volume;              // m^3, of the spheres of a piece
-  std::array<std::vector<char>, 2> stands; // whether a piece stands on the platen of an End
-  std::array<int, 2> at_end{{none, none}}; // the largest piece that does; `none` where there is none
-  double bonded_volume = 0;                // m^3, of all spheres that ever had a bond
-  bool spans(int piece) const;             // from platen to platen
-  double share(int piece) const { return volume[piece] / bonded_volume; }
+struct SoundPiece {
+  double share = 0;                              // of the volume of all spheres that ever had a bond
+  std::array<bool, 2> stands_on{{false, false}}; // the platen of an End
+  bool spans() const { return stands_on[bottom_end] && stands_on[top_end]; }
 };
-SoundPieces find_sound_pieces(const Particles &particles, const Bonds &bonds, const Shape &shape,
-                              const Soundness &soundness = {});
+std::vector<SoundPiece> find_sound_pieces(const Particles &particles, const Bonds &bonds, const Shape &shape,
+                                          const Soundness &soundness = {});
 
 } // namespace platen::dem

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "dem/measure/cone_fit.h"
+#include "dem/measure/cone.h"
 #include "tests/dem/motions.h"
 
 namespace platen::dem {
@@ -65,6 +65,16 @@ void expect_cone(const DeadZone &found, const Wanted &wanted, End end, const std
   EXPECT_GT(found.height / radius, .8 * wanted.depth) << which;
   EXPECT_LT(found.height / radius, wanted.depth + 1) << which;
   EXPECT_GT(found.confidence, .8) << which;
+}
+
+// As a cone is made it stands upright: what is below its apex is within.
+TEST(dead_zone, a_cone_stands_on_its_base) {
+  Cone cone;
+  cone.apex = {0, 0, 10};
+  cone.half_angle = 30 * degree;
+  EXPECT_NEAR(cone.distance({0, 0, 6}), -4 * std::sin(30 * degree), 1e-12);
+  EXPECT_NEAR(cone.distance({3, 0, 10}), 3 * std::cos(30 * degree), 1e-12);
+  EXPECT_GT(cone.distance({0, 0, 14}), 0);
 }
 
 // Bases that end within the platen, and bases that the rim cuts.

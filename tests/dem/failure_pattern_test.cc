@@ -5,7 +5,7 @@
 #include <limits>
 #include <tuple>
 
-#include "dem/measure/cone_fit.h"
+#include "dem/measure/cone.h"
 #include "dem/measure/failure_pattern.h"
 #include "tests/dem/motions.h"
 

@@ -6,7 +6,6 @@
 
 #include "dem/measure/circumference.h"
 #include "dem/measure/cone.h"
-#include "dem/measure/cone_fit.h"
 #include "dem/measure/damage.h"
 #include "dem/measure/failure_pattern.h"
 #include "dem/measure/stress.h"
@@ -71,36 +70,6 @@ TEST(measure_bounds, a_bond_stresses_each_sphere_by_its_own_radius) {
 }
 
 // The same cone under stricter rules, one at a time: each gate names what it refuses.
-TEST(measure_bounds, every_rule_refuses_a_piece_that_does_not_keep_it) {
-  Cylinder c;
-  const double degree = pi / 180;
-  const Cone cone{{radius, 0, 34 * radius}, {-std::sin(5 * degree), 0, -std::cos(5 * degree)}, 30 * degree};
-  c.cut([&](const Vector3 &x) { return cone.distance(x) < 0 ? 1 : Cylinder::crumbs; });
-  const SoundPieces pieces = find_sound_pieces(c.particles, c.bonds, c.shape);
-  const auto verdict = [&](const ConeRules &rules) {
-    return measure_cones(c.particles, c.bonds, pieces, c.shape, rules)[bottom_end].verdict;
-  };
-  const ConePiece found = measure_cones(c.particles, c.bonds, pieces, c.shape)[bottom_end];
-  ASSERT_TRUE(found.is_cone()) << words_of(found.verdict);
-  const auto with = [&](auto member, double value) {
-    ConeRules rules;
-    rules.*member = value;
-    return rules;
-  };
-  using R = ConeRules;
-  const double offset = std::hypot(found.apex.x, found.apex.y) / (Cylinder::width * radius);
-  for (const auto &[member, value, more, refusal] :
-       {std::tuple{&R::least_roundness, found.roundness, 1., NoCone::one_sided},
-        std::tuple{&R::least_overlap, found.overlap, 1., NoCone::ragged},
-        std::tuple{&R::least_angle, found.half_angle, 1., NoCone::does_not_narrow},
-        std::tuple{&R::largest_angle, found.half_angle, -1., NoCone::does_not_narrow},
-        std::tuple{&R::largest_tilt, found.tilt, -1., NoCone::leans},
-        std::tuple{&R::largest_offset, offset, -1., NoCone::leans}}) {
-    EXPECT_EQ(verdict(with(member, value * (1 + .01 * more))), refusal) << words_of(refusal);
-    EXPECT_EQ(verdict(with(member, value * (1 - .01 * more))), NoCone::found) << words_of(refusal);
-  }
-}
-
 TEST(measure_bounds, every_rule_refuses_a_dead_zone_that_does_not_keep_it) {
   const Cylinder c;
   const Specimen before = specimen_before(c.particles, c.shape);
@@ -164,21 +133,6 @@ TEST(measure_bounds, failure_is_measured_in_widths_and_shares_of_the_specimen) {
   EXPECT_NEAR(m.width, 2 * Cylinder::width * radius, 1e-12);
   EXPECT_EQ(m.height, c.height());
   EXPECT_NEAR(m.broken_share, broken / static_cast<double>(c.bonds.initial_count()), 1e-12);
-}
-
-// A piece that is not looked at closer has nothing of a cone.
-TEST(measure_bounds, what_is_no_piece_is_not_measured) {
-  Cylinder c;
-  c.cut([&](const Vector3 &x) {
-    return std::abs(x.z - .5 * c.height()) > .5 * c.height() - 4.5 * radius ? 1 : Cylinder::crumbs;
-  });
-  for (const ConePiece &piece :
-       measure_cones(c.particles, c.bonds, find_sound_pieces(c.particles, c.bonds, c.shape), c.shape)) {
-    EXPECT_EQ(piece.verdict, NoCone::thin);
-    EXPECT_EQ(piece.overlap, 0);
-    EXPECT_EQ(piece.roundness, 0);
-    EXPECT_EQ(piece.confidence, 0);
-  }
 }
 
 // Box and cylinder hold what is nearer to the axis than their walls, along each of their own widths.
