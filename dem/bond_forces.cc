@@ -4,7 +4,7 @@
 #include "base/parallel.h"
 #include "dem/bonds.h"
 #include "dem/kernels/bond_kernel.h"
-#include "dem/kernels/interface_kernel.h"
+#include "dem/kernels/cohesive_kernel.h"
 
 namespace platen::dem {
 namespace {
@@ -16,9 +16,9 @@ const kernels::BondKernels &kernels_of(InstructionSet set, const BondLaw &law) {
                  kernels::bond_kernels_avx512);
 }
 
-const kernels::InterfaceKernel &interface_kernel_of(InstructionSet set) {
-  return for_set(set, kernels::interface_kernel_baseline, kernels::interface_kernel_avx2,
-                 kernels::interface_kernel_avx512);
+const kernels::CohesiveKernel &cohesive_kernel_of(InstructionSet set) {
+  return for_set(set, kernels::cohesive_kernel_baseline, kernels::cohesive_kernel_avx2,
+                 kernels::cohesive_kernel_avx512);
 }
 
 kernels::BondColumns columns_of(const Particles &p, const Bonds &b) {
@@ -48,8 +48,8 @@ kernels::BondColumns columns_of(const Particles &p, const Bonds &b) {
   return c;
 }
 
-kernels::InterfaceColumns interface_columns_of(const Particles &p, const Bonds &b) {
-  kernels::InterfaceColumns columns{columns_of(p, b), {}};
+kernels::CohesiveColumns cohesive_columns_of(const Particles &p, const Bonds &b) {
+  kernels::CohesiveColumns columns{columns_of(p, b), {}};
   for (std::size_t k = 0; k < b.memory_scalars.size(); ++k)
     columns.memory.scalar[k] = b.memory_scalars[k]->data();
   for (std::size_t k = 0; k < b.memory_vectors.size(); ++k)
@@ -78,14 +78,14 @@ std::vector<BondTotals> totals_by_blocks(const Particles &p, const Bonds &b, con
   return totals;
 }
 
-std::vector<BondTotals> interface_totals(const Particles &p, const Bonds &b, InstructionSet set,
-                                         const BlockList *listed) {
-  const kernels::InterfaceColumns columns = interface_columns_of(p, b);
+std::vector<BondTotals> cohesive_totals(const Particles &p, const Bonds &b, InstructionSet set,
+                                        const BlockList *listed) {
+  const kernels::CohesiveColumns columns = cohesive_columns_of(p, b);
   return totals_by_blocks(p, b, listed, [&](BondTotals &sum, std::size_t first, std::size_t last) {
     double energy[block_rows], force[block_rows], dissipated[block_rows], damage[block_rows],
         plastic[block_rows];
-    interface_kernel_of(set).measure(columns, b.law, {energy, force, dissipated, damage, plastic}, first,
-                                     last);
+    cohesive_kernel_of(set).measure(columns, b.law, {energy, force, dissipated, damage, plastic}, first,
+                                    last);
     for (std::size_t k = 0; k < last - first; ++k) {
       const bool failed = damage[k] >= 1;
       sum += {energy[k], force[k], failed ? 0 : dissipated[k], failed ? dissipated[k] : 0, plastic[k]};
@@ -198,11 +198,11 @@ ExactSum undone_work_of_dashpots(const Particles &p, const Bonds &b, double dt,
   return work;
 }
 
-ExactSum compute_interface_forces(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity,
-                                  double dt, std::vector<BondBreak> &breaks, const Loop &beside,
-                                  const BlockList *listed) {
-  const kernels::InterfaceKernel &kernel = interface_kernel_of(set);
-  const kernels::InterfaceColumns columns = interface_columns_of(p, b);
+ExactSum compute_cohesive_forces(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity,
+                                 double dt, std::vector<BondBreak> &breaks, const Loop &beside,
+                                 const BlockList *listed) {
+  const kernels::CohesiveKernel &kernel = cohesive_kernel_of(set);
+  const kernels::CohesiveColumns columns = cohesive_columns_of(p, b);
   std::vector<kernels::BlockFindings> found(b.blocks.blocks());
   for_listed_blocks(
       listed, p.size(),
@@ -229,7 +229,7 @@ ExactSum compute_interface_forces(Particles &p, Bonds &b, InstructionSet set, co
 
 std::vector<BondTotals> bond_totals_of_blocks(const Particles &p, const Bonds &b, InstructionSet set,
                                               const BlockList *listed) {
-  if (has_history(b.law)) return interface_totals(p, b, set, listed);
+  if (has_history(b.law)) return cohesive_totals(p, b, set, listed);
   const kernels::BondColumns columns = columns_of(p, b);
   return totals_by_blocks(p, b, listed, [&](BondTotals &sum, std::size_t first, std::size_t last) {
     double energy[block_rows], force[block_rows];

@@ -12,7 +12,7 @@
 #include "base/shortest_text.h"
 #include "base/state.h"
 #include "dem/cell_grid.h"
-#include "dem/kernels/interface_kernel.h"
+#include "dem/kernels/cohesive_kernel.h"
 #include "dem/measure/damage.h"
 #include "dem/packing/specimen.h"
 #include "dem/pairs_in_state.h"
@@ -258,7 +258,7 @@ void Bonds::count_last(Failed &failed, std::size_t begin, std::size_t end) const
 
 // Each decides by its own rows alone: neither threads, ranks nor a stop change when.
 void Bonds::order_failed() {
-  constexpr int enough = 8; // a pack's worth
+  constexpr int enough = 8; // a SIMD vector's worth
   for (std::size_t b = 0; b < failed_.size(); ++b) {
     if (failed_[b].all - failed_[b].last < enough) continue;
     failed_[b].last = failed_[b].all;
@@ -348,9 +348,9 @@ bool Bonds::failed_in_tension(std::size_t k) const {
                      [](const auto &of, const auto &remembered) { return of.failed_in_tension(remembered); });
 }
 
-InterfaceGeometry<double> Bonds::interface_geometry(std::size_t k) const {
-  InterfaceGeometry<double> g{rest_length[k], lever[k], normal_stiffness[k],
-                              pi * bond_radius[k] * bond_radius[k]};
+CohesiveGeometry<double> Bonds::cohesive_geometry(std::size_t k) const {
+  CohesiveGeometry<double> g{rest_length[k], lever[k], normal_stiffness[k],
+                             pi * bond_radius[k] * bond_radius[k]};
   if (strength_factor != nullptr) g.strength_factor = (*strength_factor)[k];
   g.reference = triple(reference[k]);
   g.radius = bond_radius[k];
@@ -371,13 +371,13 @@ BondResponse<double> Bonds::response(std::size_t k, const Particles &p) const {
   const int i = first[k], j = second[k];
   const Triple<double> d = triple(p.position[j] - p.position[i]);
   if (has_history(law)) {
-    InterfaceMotion<double> now{};
+    CohesiveMotion<double> now{};
     now.distance = d;
     const Quaternion unturned{1, 0, 0, 0};
     now.turn_i = rotation(p.has_rotation() ? (*p.orientation)[i] : unturned);
     now.turn_j = rotation(p.has_rotation() ? (*p.orientation)[j] : unturned);
     return with_memory(k, [&](const auto &of, const auto &remembered) {
-      return of.bond_response(remembered, interface_geometry(k), now);
+      return of.bond_response(remembered, cohesive_geometry(k), now);
     });
   }
   return of_elastic(law, [&](const auto &elastic) -> BondResponse<double> {

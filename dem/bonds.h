@@ -171,7 +171,7 @@ struct Bonds {
 
 private:
   BondGeometry<double> geometry(std::size_t row) const;
-  InterfaceGeometry<double> interface_geometry(std::size_t row) const;
+  CohesiveGeometry<double> cohesive_geometry(std::size_t row) const;
   // Marks the record of a row that breaks, and tells what the row holds.
   BrokenBond marked(const BondBreak &, const Particles &particles, double time);
   template <class F>
@@ -251,9 +251,9 @@ ExactSum undone_work_of_dashpots(const Particles &particles, const Bonds &bonds,
 // The same for bonds that remember, which it brings `dt` further, at the velocities of the drift. Rows that
 // have failed in this step are appended to `breaks`, in row order; they are not marked here, and their
 // dashpots act no more.
-ExactSum compute_interface_forces(Particles &particles, Bonds &bonds, InstructionSet set,
-                                  const Vector3 &gravity, double dt, std::vector<BondBreak> &breaks,
-                                  const Loop &beside = {}, const BlockList *listed = nullptr);
+ExactSum compute_cohesive_forces(Particles &particles, Bonds &bonds, InstructionSet set,
+                                 const Vector3 &gravity, double dt, std::vector<BondBreak> &breaks,
+                                 const Loop &beside = {}, const BlockList *listed = nullptr);
 
 struct BondTotals {
   double energy = 0; // J

@@ -156,8 +156,8 @@ void Model::compute_bonds(double dt, const BlockList *listed, const Loop &beside
   }
   StageClock::Lap lap(clock, Stage::bonds);
   if (has_history(bonds->law))
-    works.damping += compute_interface_forces(particles, *bonds, settings_.instruction_set, settings_.gravity,
-                                              dt, breaks_, beside, listed);
+    works.damping += compute_cohesive_forces(particles, *bonds, settings_.instruction_set, settings_.gravity,
+                                             dt, breaks_, beside, listed);
   else
     works.damping += compute_bond_forces(particles, *bonds, settings_.instruction_set, settings_.gravity, dt,
                                          breaks_, beside, listed);

@@ -47,15 +47,15 @@ public:
       states_.push_back(b.memory<State>(k));
   }
 
-  InterfaceGeometry<double> geometry(std::size_t k) const {
+  CohesiveGeometry<double> geometry(std::size_t k) const {
     const double radius = b_.bond_radius[k];
-    InterfaceGeometry<double> g{b_.rest_length[k], b_.lever[k], b_.normal_stiffness[k], pi * radius * radius};
+    CohesiveGeometry<double> g{b_.rest_length[k], b_.lever[k], b_.normal_stiffness[k], pi * radius * radius};
     if (b_.strength_factor != nullptr) g.strength_factor = (*b_.strength_factor)[k];
     g.reference = triple(b_.reference[k]);
     g.radius = radius;
     return g;
   }
-  InterfaceMotion<double> motion(std::size_t k, const Way &way) const {
+  CohesiveMotion<double> motion(std::size_t k, const Way &way) const {
     const auto i = static_cast<std::size_t>(b_.first[k]), j = static_cast<std::size_t>(b_.second[k]);
     const Vector3 by = way.displacement[j] - way.displacement[i];
     const Vector3 d = p_.position[j] - p_.position[i] + by;
@@ -65,7 +65,7 @@ public:
                                         : unturned);
     };
     const Vector3 arms = b_.lever[k] * way.turn[i] + (1 - b_.lever[k]) * way.turn[j];
-    InterfaceMotion<double> m{};
+    CohesiveMotion<double> m{};
     m.distance = triple(d), m.travelled = triple(by);
     m.moved = triple(by + cross(d - 0.5 * by, arms));
     m.spun_along = 0.5 * dot(way.turn[i] + way.turn[j], d);
@@ -83,7 +83,7 @@ public:
       if (!held_[i]) square += size(i, sum);
     for (std::size_t k = 0; k < b_.size(); ++k) {
       State s = states_[k];
-      const InterfaceResponse<double> r = law_(s, geometry(k), motion(k, way));
+      const CohesiveResponse<double> r = law_(s, geometry(k), motion(k, way));
       const auto i = static_cast<std::size_t>(b_.first[k]), j = static_cast<std::size_t>(b_.second[k]);
       sum.force[i] += vector(r.force), sum.force[j] -= vector(r.force);
       sum.torque[i] += vector(r.torque_i), sum.torque[j] += vector(r.torque_j);

@@ -29,7 +29,7 @@ double measured_of(const Scene &scene, const RigReading &row) {
 
 double by_hand_of(const Scene &scene, const BondRun &run, std::size_t k) {
   if (is_prescribed(scene)) {
-    const InterfaceLoad &load = run.interface.rows[k].by_hand;
+    const CohesiveLoad &load = run.cohesive.rows[k].by_hand;
     if (turns(scene)) return load.moment;
     return slides(scene) ? load.shear : load.normal;
   }
@@ -44,13 +44,13 @@ double relative(double measured, double by_hand) {
 }
 
 double difference_of(const Scene &scene, const BondRun &run, std::size_t k) {
-  if (is_prescribed(scene)) return run.interface.difference(k);
+  if (is_prescribed(scene)) return run.cohesive.difference(k);
   return relative(measured_of(scene, run.path.rows[k]), by_hand_of(scene, run, k));
 }
 
 // Largest difference of a row that carries at least a hundredth of the load.
 double largest_difference(const Scene &scene, const BondRun &run) {
-  if (is_prescribed(scene)) return run.interface.largest_difference();
+  if (is_prescribed(scene)) return run.cohesive.largest_difference();
   double largest = 0;
   const double peak = std::abs(load_of(scene, run.path.largest));
   for (std::size_t k = 0; k < run.path.rows.size(); ++k) {
@@ -102,39 +102,39 @@ std::string report_of_prescribed(const Scene &scene, const std::vector<BondRun> 
     for (std::size_t k = 1; k <= shown; ++k) {
       const std::size_t n = k * rows / shown - 1;
       const RigReading &row = run.path.rows[n];
-      const InterfaceRow &at = run.interface.rows[n];
+      const CohesiveRow &at = run.cohesive.rows[n];
       text += fmt::format(
           "  {:>10.6g} {:>14.7g} {:>14.7g} {:>14.7g} {:>8.4f} {:>11.2e}\n", 1e-9 * run.modulus,
           1e6 * displacement_of(scene, row), load_of(scene, row), by_hand_of(scene, run, n),
-          std::max(at.measured.tension_damage, at.measured.shear_damage), run.interface.difference(n));
+          std::max(at.measured.tension_damage, at.measured.shear_damage), run.cohesive.difference(n));
     }
-    const InterfaceRow &last = run.interface.rows.back();
+    const CohesiveRow &last = run.cohesive.rows.back();
     text += fmt::format("  dissipated {:.10g} J; by hand {:.10g} J\n", last.measured.dissipated,
                         last.dissipated_by_hand);
     if (!std::isnan(run.path.break_load))
       text += fmt::format("  strength {:.10g} {}; by hand {:.10g} {}\n", run.path.break_load, unit,
                           run.strength_by_hand, unit);
-    if (!std::isnan(run.interface.fracture_energy))
+    if (!std::isnan(run.cohesive.fracture_energy))
       text += fmt::format("  fracture energy {:.10g} J/m2; by hand {:.10g} J/m2\n",
-                          run.interface.fracture_energy, run.interface.fracture_energy_by_hand);
+                          run.cohesive.fracture_energy, run.cohesive.fracture_energy_by_hand);
   }
   return text;
 }
 
 void add_prescribed(Json &j, const Scene &scene, const BondRun &run) {
-  const InterfaceRow &last = run.interface.rows.back();
+  const CohesiveRow &last = run.cohesive.rows.back();
   // The first place on the prescribed path: a sheared bond is pressed first.
   const auto moved = std::find_if(run.path.rows.begin(), run.path.rows.end(),
                                   [&](const RigReading &row) { return displacement_of(scene, row) != 0; });
   j["stiffness"] =
       moved != run.path.rows.end() ? load_of(scene, *moved) / displacement_of(scene, *moved) : not_given;
-  j["largest_difference"] = run.interface.largest_difference();
+  j["largest_difference"] = run.cohesive.largest_difference();
   j["work_j"] = last.measured.work;
   j["stored_j"] = last.measured.stored;
   j["dissipated_j"] = last.measured.dissipated;
   j["dissipated_by_hand_j"] = last.dissipated_by_hand;
-  j["fracture_energy_j_m2"] = run.interface.fracture_energy;
-  j["fracture_energy_by_hand_j_m2"] = run.interface.fracture_energy_by_hand;
+  j["fracture_energy_j_m2"] = run.cohesive.fracture_energy;
+  j["fracture_energy_by_hand_j_m2"] = run.cohesive.fracture_energy_by_hand;
   j["plastic_closing_m"] = last.measured.plastic_closing;
 }
 
@@ -198,8 +198,8 @@ void write_table(const std::filesystem::path &path, const Scene &scene, const st
                                  r.tension_ratio, r.shear_ratio, r.intact, r.lateral, r.strain_ratio,
                                  by_hand_of(scene, run, n), difference_of(scene, run, n)});
       if (is_prescribed(scene)) {
-        const InterfaceRow &row = run.interface.rows[n];
-        const InterfaceReading &m = row.measured;
+        const CohesiveRow &row = run.cohesive.rows[n];
+        const CohesiveReading &m = row.measured;
         cells.insert(cells.end(), {row.by_hand.shear, m.tension_damage, m.shear_damage, m.plastic_closing,
                                    m.work, m.stored, m.dissipated, row.dissipated_by_hand});
       }

@@ -11,7 +11,7 @@
 namespace platen::apps {
 
 bool turns(const Scene &scene); // whether the path is a rotation
-// A bond that remembers: its places are prescribed (interface_test.h).
+// A bond that remembers: its places are prescribed.
 bool is_prescribed(const Scene &scene);
 
 // bonds.csv. `by_hand` is what the closed form gives for a row: displacement (m) or rotation (rad) under the

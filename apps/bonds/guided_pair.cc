@@ -21,7 +21,7 @@ dem::ModelSettings settings_of(const Scene &scene, double modulus, double stiffn
   return settings;
 }
 
-InterfaceSection section_of_one(const dem::Bonds &bonds, double modulus) {
+CohesiveSection section_of_one(const dem::Bonds &bonds, double modulus) {
   const double radius = bonds.bond_radius[0];
   return section_of(bonds.law, bonds.rest_length[0], pi * radius * radius, modulus);
 }
@@ -30,7 +30,7 @@ InterfaceSection section_of_one(const dem::Bonds &bonds, double modulus) {
 struct Remembered {
   double plastic = 0, tension = 0, shear = 0;
 };
-Remembered remembered(const dem::InterfaceState<double> &s) {
+Remembered remembered(const dem::CohesiveState<double> &s) {
   return {s.plastic, s.tension_damage, s.shear_damage};
 }
 Remembered remembered(const dem::YieldingParallelBond::State<double> &s) {
@@ -63,11 +63,11 @@ std::vector<double> shares_of(const std::vector<double> &kinks, int steps) {
   return shares;
 }
 
-double length_of(const InterfacePlace &from, const InterfacePlace &to) {
+double length_of(const CohesivePlace &from, const CohesivePlace &to) {
   return std::abs(to.opening - from.opening) + std::abs(to.slip - from.slip) + std::abs(to.turn - from.turn);
 }
 
-InterfacePlace between(const InterfacePlace &from, const InterfacePlace &to, double share) {
+CohesivePlace between(const CohesivePlace &from, const CohesivePlace &to, double share) {
   if (share == 1) return to;
   return {from.opening + share * (to.opening - from.opening), from.slip + share * (to.slip - from.slip),
           from.turn + share * (to.turn - from.turn)};
@@ -75,13 +75,13 @@ InterfacePlace between(const InterfacePlace &from, const InterfacePlace &to, dou
 
 // Places that the path goes to on straight lines, from touching spheres on. A displacement of what turns is
 // that of a sphere's skin.
-std::vector<InterfacePlace> turning_places(const PairTest &test, const InterfaceSection &section,
-                                           double sphere_radius) {
+std::vector<CohesivePlace> turning_places(const PairTest &test, const CohesiveSection &section,
+                                          double sphere_radius) {
   std::vector<double> turns = test.turns;
   if (turns.empty())
     for (const double point : turning_points(test))
       turns.push_back(point * test.displacement);
-  std::vector<InterfacePlace> places;
+  std::vector<CohesivePlace> places;
   const double closed = slides(test) && test.pressure > 0 ? -section.closing_at(test.pressure) : 0;
   if (closed != 0) places.push_back({closed, 0, 0});
   for (const double turn : turns) {
@@ -97,7 +97,7 @@ std::vector<InterfacePlace> turning_places(const PairTest &test, const Interface
 
 } // namespace
 
-InterfaceTest::InterfaceTest(const Scene &scene, double modulus, double stiffness_ratio)
+CohesiveTest::CohesiveTest(const Scene &scene, double modulus, double stiffness_ratio)
     : test_(pair_test_of(scene)),
       radius_(scene.specimen.sphere_radius),
       model_(touching_spheres(scene), settings_of(scene, modulus, stiffness_ratio)),
@@ -114,7 +114,7 @@ InterfaceTest::InterfaceTest(const Scene &scene, double modulus, double stiffnes
 // The upper sphere goes along the line of centres, and both turn about the same axis so that their surfaces
 // slide on each other by the slip at a distance that stays. What bends or twists turns against each other,
 // half each, so that nothing slides.
-void InterfaceTest::move(const InterfacePlace &to) {
+void CohesiveTest::move(const CohesivePlace &to) {
   dem::Particles &p = model_.particles;
   const double here = p.position[upper_].z - p.position[lower_].z;
   const double distance = section_.length + to.opening;
@@ -130,7 +130,7 @@ void InterfaceTest::move(const InterfacePlace &to) {
   model_.begin_step(step);
   model_.compute_forces(step);
   const Vector3 force = p.force[upper_];
-  const InterfaceLoad before = now_;
+  const CohesiveLoad before = now_;
   now_ = {0 - force.z, 0 - force.x, turning(test_) ? 0 - dot((*p.torque)[upper_], axis) : 0};
   work_ += 0.5 * ((before.normal + now_.normal) * (to.opening - at_.opening) +
                   (before.shear + now_.shear) * (to.slip - at_.slip) +
@@ -144,7 +144,7 @@ void InterfaceTest::move(const InterfacePlace &to) {
   }
 }
 
-InterfaceReading InterfaceTest::read() const {
+CohesiveReading CohesiveTest::read() const {
   const dem::Bonds &b = *model_.bonds;
   const dem::BondTotals totals = dem::bond_totals(model_.particles, b);
   const Remembered state = dem::of_remembering(b.law, [&](const auto &of) {
@@ -155,7 +155,7 @@ InterfaceReading InterfaceTest::read() const {
       work_,         totals.energy, model_.works.fracture + totals.damage + totals.friction + totals.plastic};
 }
 
-void InterfaceTest::add_row(BondRun &run, const InterfacePlace &at) const {
+void CohesiveTest::add_row(BondRun &run, const CohesivePlace &at) const {
   const dem::BondResponse<double> response = model_.bonds->response(0, model_.particles);
   RigReading row;
   row.force = slides(test_) ? now_.shear : now_.normal;
@@ -170,27 +170,27 @@ void InterfaceTest::add_row(BondRun &run, const InterfacePlace &at) const {
   row.strain_ratio = not_given;
   run.path.rows.push_back(row);
   if (moment_)
-    run.interface.rows.push_back({read(), now_, {0, 0, moment_->moment()}, moment_->dissipated()});
+    run.cohesive.rows.push_back({read(), now_, {0, 0, moment_->moment()}, moment_->dissipated()});
   else
-    run.interface.rows.push_back({read(), now_, by_hand_.load(), by_hand_.dissipated()});
+    run.cohesive.rows.push_back({read(), now_, by_hand_.load(), by_hand_.dissipated()});
   const RigReading &largest = run.path.largest;
   if (row.intact > 0 &&
       std::abs(row.force) + std::abs(row.moment) > std::abs(largest.force) + std::abs(largest.moment))
     run.path.largest = row;
 }
 
-std::vector<double> InterfaceTest::kinks(const InterfacePlace &to) const {
+std::vector<double> CohesiveTest::kinks(const CohesivePlace &to) const {
   return moment_ ? moment_->kinks(to.turn) : by_hand_.kinks(to);
 }
 
-void InterfaceTest::go_by_hand(const InterfacePlace &to) {
+void CohesiveTest::go_by_hand(const CohesivePlace &to) {
   moment_ ? moment_->go(to.turn) : by_hand_.go(to);
 }
 
-void InterfaceTest::conclude_turning(BondRun &run) const {
+void CohesiveTest::conclude_turning(BondRun &run) const {
   run.stiffness_by_hand = moment_->stiffness();
   run.strength_by_hand = moment_->strength();
-  InterfaceResult &result = run.interface;
+  CohesiveResult &result = run.cohesive;
   run.path.break_load = result.fracture_energy = result.fracture_energy_by_hand = not_given;
   const std::vector<RigReading> &rows = run.path.rows;
   if (rows.back().intact > 0) return;
@@ -200,7 +200,7 @@ void InterfaceTest::conclude_turning(BondRun &run) const {
 }
 
 // What is known by hand, and the energy of the softening branch.
-void InterfaceTest::conclude(BondRun &run) const {
+void CohesiveTest::conclude(BondRun &run) const {
   if (moment_) return conclude_turning(run);
   const bool combined = test_.path == PairPath::combined;
   const SofteningByHand softening = slides(test_) ? section_.shear(test_.pressure) : section_.tension();
@@ -208,8 +208,8 @@ void InterfaceTest::conclude(BondRun &run) const {
   run.strength_by_hand = section_.area * softening.strength;
   if (test_.path == PairPath::compression) run.strength_by_hand = std::numeric_limits<double>::infinity();
   if (combined) { // where the first of the lines bends down
-    InterfaceByHand fresh(section_, true, test_.slip_ratio);
-    const InterfacePlace end = turning_places(test_, section_, radius_).front();
+    CohesiveByHand fresh(section_, true, test_.slip_ratio);
+    const CohesivePlace end = turning_places(test_, section_, radius_).front();
     const std::vector<double> kinks = fresh.kinks(end);
     run.strength_by_hand = not_given;
     if (!kinks.empty()) { // of a brittle one just before it breaks
@@ -217,7 +217,7 @@ void InterfaceTest::conclude(BondRun &run) const {
       run.strength_by_hand = fresh.load().normal;
     }
   }
-  InterfaceResult &result = run.interface;
+  CohesiveResult &result = run.cohesive;
   run.path.break_load = result.fracture_energy = result.fracture_energy_by_hand = not_given;
   const std::vector<RigReading> &rows = run.path.rows;
   if (rows.back().intact > 0) return;
@@ -232,26 +232,26 @@ void InterfaceTest::conclude(BondRun &run) const {
   result.fracture_energy_by_hand = softening.fracture_energy();
 }
 
-BondRun InterfaceTest::run() {
+BondRun CohesiveTest::run() {
   BondRun run;
   run.modulus = section_.modulus;
   run.stiffness_ratio = section_.shear_stiffness() / section_.normal_stiffness();
   run.bonds = model_.intact_bonds();
   run.bond_area = section_.area;
-  run.interface.length = section_.length;
+  run.cohesive.length = section_.length;
   run.time_step = run.strain_ratio_by_hand = not_given;
   run.time_step_reason = "none: spheres are led without inertia";
-  const std::vector<InterfacePlace> places = turning_places(test_, section_, radius_);
+  const std::vector<CohesivePlace> places = turning_places(test_, section_, radius_);
   double length = 0;
-  InterfacePlace from;
-  for (const InterfacePlace &to : places)
+  CohesivePlace from;
+  for (const CohesivePlace &to : places)
     length += length_of(from, to), from = to;
   from = {};
-  for (const InterfacePlace &to : places) {
+  for (const CohesivePlace &to : places) {
     const double part = length_of(from, to) / length;
     const int steps = std::max(1, static_cast<int>(std::lround(part * test_.steps)));
     for (const double share : shares_of(kinks(to), steps)) {
-      const InterfacePlace next = between(from, to, share);
+      const CohesivePlace next = between(from, to, share);
       move(next);
       go_by_hand(next);
       add_row(run, next);
@@ -264,12 +264,12 @@ BondRun InterfaceTest::run() {
   return run;
 }
 
-double InterfaceResult::difference(std::size_t row) const {
-  const auto each = [this](const InterfaceLoad &of) {
+double CohesiveResult::difference(std::size_t row) const {
+  const auto each = [this](const CohesiveLoad &of) {
     return std::array<double, 3>{length * of.normal, length * of.shear, of.moment};
   };
   double scale = 0;
-  for (const InterfaceRow &r : rows)
+  for (const CohesiveRow &r : rows)
     for (const double load : each(r.by_hand))
       scale = std::max(scale, std::abs(load));
   const auto measured = each(rows[row].load), by_hand = each(rows[row].by_hand);
@@ -279,7 +279,7 @@ double InterfaceResult::difference(std::size_t row) const {
   return largest / scale;
 }
 
-double InterfaceResult::largest_difference() const {
+double CohesiveResult::largest_difference() const {
   double largest = 0;
   for (std::size_t k = 0; k < rows.size(); ++k)
     largest = std::max(largest, std::abs(difference(k)));

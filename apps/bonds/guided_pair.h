@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "apps/bonds/interface_forms.h"
+#include "apps/bonds/cohesive_forms.h"
 #include "apps/bonds/load_path.h"
 #include "apps/bonds/moment_forms.h"
 #include "apps/bonds/pair_section.h"
@@ -14,20 +14,20 @@
 namespace platen::apps {
 
 // Of the one bond, as it stands.
-struct InterfaceReading {
+struct CohesiveReading {
   double tension_damage = 0, shear_damage = 0; // 1
   double plastic_closing = 0;                  // m, that stays when it is unloaded
   double work = 0, stored = 0, dissipated = 0; // J; work by the trapezoid between places
 };
 
-struct InterfaceRow {
-  InterfaceReading measured;
-  InterfaceLoad load, by_hand;   // that holds the moved sphere
+struct CohesiveRow {
+  CohesiveReading measured;
+  CohesiveLoad load, by_hand;    // that holds the moved sphere
   double dissipated_by_hand = 0; // J
 };
 
-struct InterfaceResult {
-  std::vector<InterfaceRow> rows;
+struct CohesiveResult {
+  std::vector<CohesiveRow> rows;
   double length = 0; // m, of the bond: at this arm forces count beside moments
   // J/m^2, area under the softening branch; NaN where the bond has not failed in tension, or in shear without
   // pressure.
@@ -39,33 +39,33 @@ struct InterfaceResult {
 
 struct BondRun;
 
-class InterfaceTest {
+class CohesiveTest {
 public:
   // Throws InputError where this build leaves out what the scene asks for.
-  InterfaceTest(const Scene &scene, double modulus, double stiffness_ratio);
+  CohesiveTest(const Scene &scene, double modulus, double stiffness_ratio);
 
   // Rows stand at `Pair test/Steps` equal steps and wherever the lines by hand bend, so that sums between
   // rows are exact. To be called once.
   BondRun run();
 
 private:
-  void move(const InterfacePlace &to);
-  void add_row(BondRun &run, const InterfacePlace &at) const;
-  std::vector<double> kinks(const InterfacePlace &to) const; // of the lines by hand
-  void go_by_hand(const InterfacePlace &to);
+  void move(const CohesivePlace &to);
+  void add_row(BondRun &run, const CohesivePlace &at) const;
+  std::vector<double> kinks(const CohesivePlace &to) const; // of the lines by hand
+  void go_by_hand(const CohesivePlace &to);
   void conclude(BondRun &run) const;
   void conclude_turning(BondRun &run) const;
-  InterfaceReading read() const;
+  CohesiveReading read() const;
 
   const PairTest &test_;
   double radius_; // m, of a sphere
   dem::Model model_;
-  InterfaceSection section_;
-  InterfaceByHand by_hand_;
+  CohesiveSection section_;
+  CohesiveByHand by_hand_;
   std::optional<MomentByHand> moment_; // by hand, on a path that bends or twists
   std::size_t upper_ = 0, lower_ = 0;  // rows
-  InterfacePlace at_;
-  InterfaceLoad now_;
+  CohesivePlace at_;
+  CohesiveLoad now_;
   double work_ = 0;
   long steps_ = 0;
 };

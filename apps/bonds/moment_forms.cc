@@ -11,7 +11,7 @@ constexpr double beside_failure = 1e-7;
 
 } // namespace
 
-MomentSection moment_section(const InterfaceSection &section, MomentAxis axis, double beta,
+MomentSection moment_section(const CohesiveSection &section, MomentAxis axis, double beta,
                              double bond_radius) {
   const double inertia = 0.25 * section.area * bond_radius * bond_radius; // m^4
   MomentSection s;

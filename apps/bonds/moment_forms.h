@@ -3,7 +3,7 @@
 // breaks, as if it were pulled or sheared as a whole (theory 2.2, 2.6, 2.7).
 #pragma once
 
-#include "apps/bonds/interface_forms.h"
+#include "apps/bonds/cohesive_forms.h"
 
 namespace platen::apps {
 
@@ -17,14 +17,14 @@ struct MomentSection {
 };
 enum class MomentAxis { across, along };
 // beta: share of the moment that counts. bond_radius in m.
-MomentSection moment_section(const InterfaceSection &section, MomentAxis axis, double beta,
+MomentSection moment_section(const CohesiveSection &section, MomentAxis axis, double beta,
                              double bond_radius);
 
 class MomentByHand {
 public:
   explicit MomentByHand(const MomentSection &section) : section_(section) {}
 
-  // As InterfaceByHand's, of turns (rad) from 0 on.
+  // As CohesiveByHand's, of turns (rad) from 0 on.
   std::vector<double> kinks(double to) const;
   void go(double to);
   double moment() const; // N m

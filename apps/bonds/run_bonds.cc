@@ -73,7 +73,7 @@ std::string description(const Scene &scene) {
 }
 
 BondRun run_one(const Scene &scene, double modulus, double ratio) {
-  if (is_prescribed(scene)) return InterfaceTest(scene, modulus, ratio).run();
+  if (is_prescribed(scene)) return CohesiveTest(scene, modulus, ratio).run();
   BondRig rig(scene, modulus, ratio);
   BondRun run;
   run.modulus = modulus;
@@ -117,8 +117,8 @@ int run_bonds(const CommandLine &command, const Scene &scene) {
     throw InputError("--resume: a bond test takes seconds and keeps no checkpoint; run it anew");
   AppOutput output(command, scene);
   if (command.dry_run && is_prescribed(scene)) {
-    const InterfaceTest test(scene, pair_test_of(scene).moduli.front(),
-                             pair_test_of(scene).stiffness_ratios.front());
+    const CohesiveTest test(scene, pair_test_of(scene).moduli.front(),
+                            pair_test_of(scene).stiffness_ratios.front());
     fmt::print("{}  led without inertia: no time step\n", description(scene));
     return status_done;
   }

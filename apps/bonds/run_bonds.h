@@ -15,9 +15,9 @@ namespace platen::apps {
 struct BondRun : TestFigures {
   double modulus = 0, stiffness_ratio = 0; // Pa, 1
   PathResult path;
-  InterfaceResult interface; // only of a bond that remembers
-  double fracture_work = 0;  // J
-  double bond_area = 0;      // m^2
+  CohesiveResult cohesive; // only of a bond that remembers
+  double fracture_work = 0; // J
+  double bond_area = 0;     // m^2
 
   // The same by closed forms: stiffness (N/m or N m), breaking load (N or N m; infinite, or NaN where none is
   // known) and strain ratio (three spheres, else NaN).

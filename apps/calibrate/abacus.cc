@@ -19,10 +19,10 @@ std::vector<Choice> combinations(const Scene &scene) {
       for (const double poisson : or_own(c.poisson_ratios, scene.bond.number("poisson_ratio")))
         for (const double modulus : or_own(c.moduli, scene.model.bond_layout.modulus)) {
           Choice choice = choice_of(scene);
-          choice[Knob::radius_multiplier] = multiplier;
-          choice[Knob::stiffness_ratio] = ratio;
-          choice[Knob::poisson_ratio] = poisson;
-          choice[Knob::modulus] = modulus;
+          choice[FreeParameter::radius_multiplier] = multiplier;
+          choice[FreeParameter::stiffness_ratio] = ratio;
+          choice[FreeParameter::poisson_ratio] = poisson;
+          choice[FreeParameter::modulus] = modulus;
           all.push_back(choice);
         }
   return all;
@@ -39,7 +39,7 @@ Json make_abacus(const Scene &scene, const OutputPaths &paths, Trials &trials, R
   for (const Choice &choice : choices)
     for (const unsigned long seed : seeds) {
       asked.push_back({SpecimenTest{}, seed, choice});
-      if (linear) asked.back().choice[Knob::modulus] = scene.model.bond_layout.modulus;
+      if (linear) asked.back().choice[FreeParameter::modulus] = scene.model.bond_layout.modulus;
     }
   const std::vector<TrialResult> results = trials(asked);
   const auto young_of = [](const TrialResult &r) { return r.number("youngs_modulus_gauge_pa"); };
@@ -50,26 +50,27 @@ Json make_abacus(const Scene &scene, const OutputPaths &paths, Trials &trials, R
            "bond nu", "E, GPa", "+-", "nu", "Voigt, GPa", "Voigt nu");
   for (std::size_t k = 0; k < choices.size(); ++k) {
     const Choice &c = choices[k];
-    const double ratio = beams ? not_given : c[Knob::stiffness_ratio],
-                 bond_poisson = beams ? c[Knob::poisson_ratio] : not_given;
+    const double ratio = beams ? not_given : c[FreeParameter::stiffness_ratio],
+                 bond_poisson = beams ? c[FreeParameter::poisson_ratio] : not_given;
     SeedStatistics young, poisson, voigt, voigt_poisson;
     for (std::size_t s = 0; s < seeds.size(); ++s) {
       const TrialResult &r = results[k * seeds.size() + s];
-      const double scale = linear ? c[Knob::modulus] / scene.model.bond_layout.modulus : 1.0;
+      const double scale = linear ? c[FreeParameter::modulus] / scene.model.bond_layout.modulus : 1.0;
       const dem::NetworkModuli b = bounds_of(trials.with(c, seeds[s]), trials.packing(seeds[s]));
-      table.row({seeds[s], c[Knob::modulus], ratio, c[Knob::radius_multiplier], bond_poisson,
-                 scale * young_of(r), scale * r.number("youngs_modulus_platen_pa"), r.number("poisson_ratio"),
-                 b.young_voigt, b.poisson_voigt, b.young_reuss, b.poisson_reuss});
+      table.row({seeds[s], c[FreeParameter::modulus], ratio, c[FreeParameter::radius_multiplier],
+                 bond_poisson, scale * young_of(r), scale * r.number("youngs_modulus_platen_pa"),
+                 r.number("poisson_ratio"), b.young_voigt, b.poisson_voigt, b.young_reuss, b.poisson_reuss});
       if (r.good()) young.add(scale * young_of(r)), poisson.add(r.number("poisson_ratio"));
       voigt.add(b.young_voigt), voigt_poisson.add(b.poisson_voigt);
     }
     log.info("  {:>10.5g} {:>7.4g} {:>10.4g} {:>7.4g} {:>12.5g} {:>9.2g} {:>9.4f} {:>12.5g} {:>9.4f}",
-             1e-9 * c[Knob::modulus], ratio, c[Knob::radius_multiplier], bond_poisson, 1e-9 * young.mean(),
-             1e-9 * young.deviation(), poisson.mean(), 1e-9 * voigt.mean(), voigt_poisson.mean());
+             1e-9 * c[FreeParameter::modulus], ratio, c[FreeParameter::radius_multiplier], bond_poisson,
+             1e-9 * young.mean(), 1e-9 * young.deviation(), poisson.mean(), 1e-9 * voigt.mean(),
+             voigt_poisson.mean());
     Json row;
-    row["bond_modulus_pa"] = c[Knob::modulus];
+    row["bond_modulus_pa"] = c[FreeParameter::modulus];
     row["stiffness_ratio"] = ratio;
-    row["radius_multiplier"] = c[Knob::radius_multiplier];
+    row["radius_multiplier"] = c[FreeParameter::radius_multiplier];
     row["bond_poisson_ratio"] = bond_poisson;
     row["youngs_modulus_gauge_pa"] = young.mean();
     row["poisson_ratio"] = poisson.mean();

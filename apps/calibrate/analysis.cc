@@ -30,21 +30,22 @@ Eigen::MatrixXd sensitivities_of(const Goals &goals, const Sensitivities &at) {
   Eigen::MatrixXd table(at.slopes.cols(), at.goals.size());
   for_rows(goals, at.goals, [&](std::size_t k, Eigen::Index row, Eigen::Index rows) {
     const double scale = goals.scale(at.goals[k]);
-    for (Eigen::Index knob = 0; knob < table.rows(); ++knob) {
-      const Eigen::VectorXd slopes = at.slopes.col(knob).segment(row, rows) / scale;
-      table(knob, static_cast<Eigen::Index>(k)) =
+    for (Eigen::Index parameter = 0; parameter < table.rows(); ++parameter) {
+      const Eigen::VectorXd slopes = at.slopes.col(parameter).segment(row, rows) / scale;
+      table(parameter, static_cast<Eigen::Index>(k)) =
           rows == 1 ? slopes[0] : slopes.norm() / std::sqrt(static_cast<double>(rows));
     }
   });
   return table;
 }
 
-std::string direction(const Calibrate &asked, const std::vector<Knob> &knobs, const Eigen::VectorXd &way) {
+std::string direction(const Calibrate &asked, const std::vector<FreeParameter> &free,
+                      const Eigen::VectorXd &way) {
   std::string text;
-  for (std::size_t k = 0; k < knobs.size(); ++k) {
+  for (std::size_t k = 0; k < free.size(); ++k) {
     const double share = way[static_cast<Eigen::Index>(k)];
     if (std::abs(share) >= worth_telling)
-      text += fmt::format("{}{} {:+.2f}", text.empty() ? "" : ", ", facts_of(asked, knobs[k]).words, share);
+      text += fmt::format("{}{} {:+.2f}", text.empty() ? "" : ", ", facts_of(asked, free[k]).words, share);
   }
   return text;
 }
@@ -54,7 +55,7 @@ std::string direction(const Calibrate &asked, const std::vector<Knob> &knobs, co
 Analysis analyse(const Goals &goals, double tolerance, const Sensitivities &at) {
   Analysis a;
   a.sensitivities = sensitivities_of(goals, at);
-  if (at.knobs.empty()) return a;
+  if (at.free.empty()) return a;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solved(at.slopes.transpose() * at.slopes);
   const Eigen::VectorXd &values = solved.eigenvalues();
   const double least = floor_of_eigenvalues * std::max(values.maxCoeff(), tolerance * tolerance);
@@ -64,13 +65,13 @@ Analysis analyse(const Goals &goals, double tolerance, const Sensitivities &at) 
   a.correlations = scales.asDiagonal() * inverse * scales.asDiagonal();
   for (Eigen::Index k = 0; k < values.size(); ++k) {
     if (half * std::sqrt(std::max(values[k], 0.0)) < tolerance)
-      a.undetermined.push_back(direction(goals.asked(), at.knobs, solved.eigenvectors().col(k)));
+      a.undetermined.push_back(direction(goals.asked(), at.free, solved.eigenvectors().col(k)));
     for (Eigen::Index other = 0; other < k; ++other)
       if (std::abs(a.correlations(k, other)) > closely)
         a.correlated.push_back(fmt::format(
             "{} against {} ({:+.3f})",
-            facts_of(goals.asked(), at.knobs[static_cast<std::size_t>(other)]).words,
-            facts_of(goals.asked(), at.knobs[static_cast<std::size_t>(k)]).words, a.correlations(k, other)));
+            facts_of(goals.asked(), at.free[static_cast<std::size_t>(other)]).words,
+            facts_of(goals.asked(), at.free[static_cast<std::size_t>(k)]).words, a.correlations(k, other)));
   }
   return a;
 }

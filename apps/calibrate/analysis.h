@@ -9,10 +9,10 @@
 namespace platen::apps {
 
 struct Analysis {
-  // d ln goal / d ln knob, a row a knob, a column a wanted goal; of a curve the root mean square over its
-  // points of d(stress over the largest) / d ln knob.
+  // d ln goal / d ln parameter, a row a parameter, a column a wanted goal; of a curve the root mean square
+  // over its points of d(stress over the largest) / d ln parameter.
   Eigen::MatrixXd sensitivities;
-  // Of the knobs, from the inverse of J^T J (Gauss-Newton), J the slopes of the responses.
+  // Of the parameters, from the inverse of J^T J (Gauss-Newton), J the slopes of the responses.
   Eigen::MatrixXd correlations;
   // "tensile strength against shear strength (-0.98)": pairs that only differences tell apart.
   std::vector<std::string> correlated;

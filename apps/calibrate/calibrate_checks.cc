@@ -11,24 +11,24 @@
 namespace platen::apps {
 namespace {
 
-bool has_knob(const Scene &scene, Knob knob) {
-  switch (knob) {
-    case Knob::tensile_strength:
-    case Knob::shear_strength:
-    case Knob::modulus:
-    case Knob::radius_multiplier:
+bool has_parameter(const Scene &scene, FreeParameter parameter) {
+  switch (parameter) {
+    case FreeParameter::tensile_strength:
+    case FreeParameter::shear_strength:
+    case FreeParameter::modulus:
+    case FreeParameter::radius_multiplier:
       return true;
-    case Knob::stiffness_ratio:
+    case FreeParameter::stiffness_ratio:
       return scene.bond.has("stiffness_ratio");
-    case Knob::poisson_ratio:
+    case FreeParameter::poisson_ratio:
       return scene.bond.has("poisson_ratio");
-    case Knob::moment_contribution:
+    case FreeParameter::moment_contribution:
       return scene.bond.has("moment_contribution");
-    case Knob::friction_angle:
+    case FreeParameter::friction_angle:
       return scene.bond.has("friction_angle");
-    case Knob::compression_limits:
+    case FreeParameter::compression_limits:
       return !scene.bond.list("compression_limits").empty();
-    case Knob::contact_friction:
+    case FreeParameter::contact_friction:
       return scene.contact.tangential != dem::TangentialContact::none;
   }
   return false;
@@ -62,7 +62,7 @@ void check_calibrate_bounds(const SceneCheck &check) {
           "needs a bond with a friction angle. Allowed: Effects/Bond = parallel bond, cohesive beam, "
           "yielding parallel bond.");
   const bool freed = given(c.triaxial_strength) ||
-                     std::find(c.free.begin(), c.free.end(), Knob::friction_angle) != c.free.end();
+                     std::find(c.free.begin(), c.free.end(), FreeParameter::friction_angle) != c.free.end();
   const double own = freed ? not_given : check.scene().bond.number("friction_angle");
   if ((given(c.friction_low) ? c.friction_low : own) > (given(c.friction_high) ? c.friction_high : own))
     check.refuse(
@@ -93,10 +93,11 @@ void check_free_parameters(const SceneCheck &check) {
         c.free.empty() ? "Calibrate/Parameter 1" : "Calibrate/Free",
         "frees more parameters than the targets can tell: " + std::to_string(c.free.size() + c.freed.size()) +
             " for " + std::to_string(count) + ". Allowed: as many as targets; a curve counts for three.");
-  for (const Knob knob : c.free)
-    if (!has_knob(check.scene(), knob))
-      check.refuse("Calibrate/Free", "holds " + word_of(free_knobs, knob) + ", which Effects/Bond = " +
-                                         check.scene().bond.word() + " does not have here.");
+  for (const FreeParameter parameter : c.free)
+    if (!has_parameter(check.scene(), parameter))
+      check.refuse("Calibrate/Free", "holds " + word_of(free_parameters, parameter) +
+                                         ", which Effects/Bond = " + check.scene().bond.word() +
+                                         " does not have here.");
 }
 
 void check_triaxial_strength(const SceneCheck &check) {

@@ -13,17 +13,17 @@
 namespace platen::apps {
 namespace {
 
-// "tensile strength, friction angle": words of free_knobs, each once; "" is none.
-std::vector<Knob> read_knobs(const std::string &text) {
+// "tensile strength, friction angle": words of free_parameters, each once; "" is none.
+std::vector<FreeParameter> read_free_parameters(const std::string &text) {
   std::vector<std::string> words;
-  for (const auto &one : free_knobs)
+  for (const auto &one : free_parameters)
     words.push_back(one.first);
-  std::vector<Knob> knobs;
-  return read_items<Knob>(text, [&](const std::string &item) {
-    const Knob knob = free_knobs[read_word(item, words)].second;
-    if (std::find(knobs.begin(), knobs.end(), knob) != knobs.end()) throw ValueError("is there twice");
-    knobs.push_back(knob);
-    return knob;
+  std::vector<FreeParameter> free;
+  return read_items<FreeParameter>(text, [&](const std::string &item) {
+    const FreeParameter parameter = free_parameters[read_word(item, words)].second;
+    if (std::find(free.begin(), free.end(), parameter) != free.end()) throw ValueError("is there twice");
+    free.push_back(parameter);
+    return parameter;
   });
 }
 
@@ -88,9 +88,9 @@ void declare_calibrate(Parameters &parameters, Scene &scene) {
                 "Speed of opening in tension tests; where not given, Loading/Axial rate times the target of "
                 "tensile over that of compressive strength (a tenth where one is missing).");
   std::string words;
-  for (const auto &one : free_knobs)
+  for (const auto &one : free_parameters)
     words += (words.empty() ? "" : ", ") + one.first;
-  section.value("Free", c.free, "", "with commas between them, any of " + words, read_knobs,
+  section.value("Free", c.free, "", "with commas between them, any of " + words, read_free_parameters,
                 "What the search may change; empty: what the targets need. The tensile strength carries a "
                 "shear strength along that is not named; the compression limits have one factor.");
   section.entry("Differences", c.differences,
@@ -192,8 +192,8 @@ FreedEntry completed(Parameters &parameters, FreedEntry freed, const std::string
       entry->allowed.rfind("whole", 0) == 0 || freed.path.rfind("Calibrate/", 0) == 0)
     parameters.refuse(key,
                       "frees " + freed.path + ", which is no number of this scene that may take any value.");
-  for (const auto &[word, knob] : free_knobs)
-    if (facts_of(Calibrate(), knob).entry == freed.path)
+  for (const auto &[word, parameter] : free_parameters)
+    if (facts_of(Calibrate(), parameter).entry == freed.path)
       parameters.refuse(key, "is what Calibrate/Free = " + word + " names.");
   freed.unit = entry->unit.empty() ? "1" : entry->unit;
   const auto read = [&](const std::string &text, const std::string &what) {

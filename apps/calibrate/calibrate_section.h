@@ -18,7 +18,7 @@ inline const Words<CalibrateMode> calibrate_modes{
     {"bounds", CalibrateMode::bounds}, {"abacus", CalibrateMode::abacus}, {"search", CalibrateMode::search}};
 
 // What a calibration may change, in the order of its tables.
-enum class Knob {
+enum class FreeParameter {
   modulus,
   stiffness_ratio,
   radius_multiplier,
@@ -30,20 +30,20 @@ enum class Knob {
   compression_limits, // one factor to all of the scene's
   contact_friction
 };
-constexpr std::size_t knob_count = 10;
+constexpr std::size_t parameter_count = 10;
 // Those that a search may free, as Calibrate/Free names them.
-inline const Words<Knob> free_knobs{{"modulus", Knob::modulus},
-                                    {"stiffness ratio", Knob::stiffness_ratio},
-                                    {"radius multiplier", Knob::radius_multiplier},
-                                    {"tensile strength", Knob::tensile_strength},
-                                    {"shear strength", Knob::shear_strength},
-                                    {"moment contribution", Knob::moment_contribution},
-                                    {"friction angle", Knob::friction_angle},
-                                    {"compression limits", Knob::compression_limits},
-                                    {"contact friction", Knob::contact_friction}};
+inline const Words<FreeParameter> free_parameters{{"modulus", FreeParameter::modulus},
+                                                  {"stiffness ratio", FreeParameter::stiffness_ratio},
+                                                  {"radius multiplier", FreeParameter::radius_multiplier},
+                                                  {"tensile strength", FreeParameter::tensile_strength},
+                                                  {"shear strength", FreeParameter::shear_strength},
+                                                  {"moment contribution", FreeParameter::moment_contribution},
+                                                  {"friction angle", FreeParameter::friction_angle},
+                                                  {"compression limits", FreeParameter::compression_limits},
+                                                  {"contact friction", FreeParameter::contact_friction}};
 
 // Any other number of the scene that a search may change: "Contact/Rolling friction: 0.01 ... 0.5". Beyond
-// knob_count these follow in their order.
+// parameter_count these follow in their order.
 struct FreedEntry {
   std::string path;                                          // "" of none
   std::string from, to;                                      // as they stand in the scene
@@ -63,7 +63,7 @@ struct Calibrate { // platen-calibrate
   std::vector<Target> targets;                                           // all of the above
   std::array<FreedEntry, most_freed> entries; // "Parameter 1" ...; those that are set, once it is read
   std::vector<FreedEntry> freed;
-  std::vector<Knob> free;                // empty: what the targets need
+  std::vector<FreeParameter> free;       // empty: what the targets need
   bool differences = false;              // sensitivities measured one by one before the search
   int seeds = 3, verification_seeds = 5; // packings to calibrate on, and others to judge by
   double strain = 1e-5;                  // of the static solves

@@ -8,15 +8,15 @@
 
 namespace platen::apps {
 
-// SI; those of Knob, then those of Calibrate/Parameter 1, ...; of compression limits their factor.
+// SI; those of FreeParameter, then those of Calibrate/Parameter 1, ...; of compression limits their factor.
 struct Choice {
-  std::vector<double> numbers = std::vector<double>(knob_count, 0.0);
-  double &operator[](Knob knob) { return numbers[static_cast<std::size_t>(knob)]; }
-  double operator[](Knob knob) const { return numbers[static_cast<std::size_t>(knob)]; }
+  std::vector<double> numbers = std::vector<double>(parameter_count, 0.0);
+  double &operator[](FreeParameter parameter) { return numbers[static_cast<std::size_t>(parameter)]; }
+  double operator[](FreeParameter parameter) const { return numbers[static_cast<std::size_t>(parameter)]; }
 };
 
-struct KnobFacts {
-  Knob knob;
+struct ParameterFacts {
+  FreeParameter parameter;
   std::string entry;     // of the scene
   std::string column;    // of trials.csv and summary.json
   std::string words;     // for the screen
@@ -26,14 +26,14 @@ struct KnobFacts {
   bool elastic;          // static solves depend on it
 };
 // In the order of a choice's numbers.
-std::vector<KnobFacts> knob_facts(const Calibrate &calibrate);
-KnobFacts facts_of(const Calibrate &calibrate, Knob knob);
+std::vector<ParameterFacts> parameter_facts(const Calibrate &calibrate);
+ParameterFacts facts_of(const Calibrate &calibrate, FreeParameter parameter);
 
 // The scene's own.
 Choice choice_of(const Scene &scene);
 // "Bond/Modulus = 3e10 Pa" and so on, for a scene that is to have it.
 std::vector<std::string> overrides_of(const Scene &scene, const Choice &choice);
 // "tensile strength 7.34 MPa", for the screen.
-std::string text_of(const KnobFacts &facts, double value);
+std::string text_of(const ParameterFacts &facts, double value);
 
 } // namespace platen::apps

@@ -47,10 +47,10 @@ std::string matrix_text(const std::vector<std::string> &rows, const std::vector<
   return text;
 }
 
-std::vector<std::string> words_of(const Calibrate &asked, const std::vector<Knob> &knobs) {
+std::vector<std::string> words_of(const Calibrate &asked, const std::vector<FreeParameter> &free) {
   std::vector<std::string> words;
-  for (const Knob knob : knobs)
-    words.push_back(facts_of(asked, knob).words);
+  for (const FreeParameter parameter : free)
+    words.push_back(facts_of(asked, parameter).words);
   return words;
 }
 
@@ -97,13 +97,13 @@ Json json_of(const Goals &goals, std::size_t k, const Judged &judged) {
   return one;
 }
 
-// A row a knob: {"parameter": "stiffness ratio", COLUMN: number, ...}.
-Json json_of(const Calibrate &asked, const std::vector<Knob> &knobs, const std::vector<std::string> &columns,
-             const Eigen::MatrixXd &numbers) {
+// A row a parameter: {"parameter": "stiffness ratio", COLUMN: number, ...}.
+Json json_of(const Calibrate &asked, const std::vector<FreeParameter> &free,
+             const std::vector<std::string> &columns, const Eigen::MatrixXd &numbers) {
   Json rows = Json::array();
-  for (std::size_t r = 0; r < knobs.size(); ++r) {
+  for (std::size_t r = 0; r < free.size(); ++r) {
     Json row;
-    row["parameter"] = facts_of(asked, knobs[r]).column;
+    row["parameter"] = facts_of(asked, free[r]).column;
     for (std::size_t k = 0; k < columns.size(); ++k)
       row[columns[k]] = numbers(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k));
     rows.push_back(row);
@@ -169,12 +169,12 @@ std::string findings(const Goals &goals, const Scene &scene, const Judged &judge
   std::vector<std::string> targets;
   for (const std::size_t k : at.goals)
     targets.push_back(goals.all()[k].words);
-  const std::vector<std::string> knobs = words_of(goals.asked(), at.knobs);
+  const std::vector<std::string> free = words_of(goals.asked(), at.free);
   std::string text = fmt::format(
       "  d ln target / d ln parameter, {}:\n",
       at.measured ? "by differences and trials" : "that of one concrete, corrected by the trials");
-  text += matrix_text(knobs, targets, a.sensitivities);
-  text += "  correlations of the parameters:\n" + matrix_text(knobs, knobs, a.correlations);
+  text += matrix_text(free, targets, a.sensitivities);
+  text += "  correlations of the parameters:\n" + matrix_text(free, free, a.correlations);
   text += listed("hardly told apart", a.correlated);
   text += listed("not determined by the targets", a.undetermined);
   text += listed("not met together", missed(goals, judged.found));
@@ -185,8 +185,9 @@ std::string findings(const Goals &goals, const Scene &scene, const Judged &judge
 void tell_found(const Goals &goals, const Scene &scene, const Judged &judged, Json &s) {
   const Sensitivities &at = judged.found.sensitivities;
   const Analysis a = analyse(goals, calibrate_of(scene).tolerance, at);
-  for (const KnobFacts &knob : knob_facts(goals.asked()))
-    if (knob.knob != Knob::poisson_ratio) s["found"][knob.column] = judged.found.choice[knob.knob];
+  for (const ParameterFacts &parameter : parameter_facts(goals.asked()))
+    if (parameter.parameter != FreeParameter::poisson_ratio)
+      s["found"][parameter.column] = judged.found.choice[parameter.parameter];
   s["training"] = json_of(goals, judged.training);
   s["verification"] = json_of(goals, judged.unseen);
   s["targets"] = Json::array();
@@ -203,14 +204,14 @@ void tell_found(const Goals &goals, const Scene &scene, const Judged &judged, Js
   s["tensile_strength_pa"] = mean("tensile_strength_pa");
   s["triaxial_strength_pa"] = mean("triaxial_strength_pa");
   s["strength_trials"] = judged.found.trials;
-  std::vector<std::string> columns, knobs;
+  std::vector<std::string> columns, free;
   for (const std::size_t k : at.goals)
     columns.push_back(goals.all()[k].key);
-  for (const Knob knob : at.knobs)
-    knobs.push_back(facts_of(goals.asked(), knob).column);
+  for (const FreeParameter parameter : at.free)
+    free.push_back(facts_of(goals.asked(), parameter).column);
   s["sensitivities_measured"] = at.measured;
-  s["sensitivities"] = json_of(goals.asked(), at.knobs, columns, a.sensitivities);
-  s["correlations"] = json_of(goals.asked(), at.knobs, knobs, a.correlations);
+  s["sensitivities"] = json_of(goals.asked(), at.free, columns, a.sensitivities);
+  s["correlations"] = json_of(goals.asked(), at.free, free, a.correlations);
   s["correlated"] = a.correlated;
   s["undetermined"] = a.undetermined;
   s["targets_missed"] = gaps(goals, judged);

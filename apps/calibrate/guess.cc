@@ -23,42 +23,42 @@ constexpr double modulus_by_radius = 2;
 constexpr double secant_by_ratio = 0.25;
 
 // Voigt: E ~ (2 + 3 r)/(4 + r), nu = (1 - r)/(4 + r).
-double elastic_slope(const Target &target, Knob knob, const Choice &at) {
+double elastic_slope(const Target &target, FreeParameter parameter, const Choice &at) {
   const bool young = target.kind == TargetKind::young_modulus;
-  const double r = at[Knob::stiffness_ratio];
-  switch (knob) {
-    case Knob::modulus:
+  const double r = at[FreeParameter::stiffness_ratio];
+  switch (parameter) {
+    case FreeParameter::modulus:
       return young ? 1 : 0;
-    case Knob::stiffness_ratio:
+    case FreeParameter::stiffness_ratio:
       return young ? 3 * r / (2 + 3 * r) - r / (4 + r) : -5 * r / ((4 + r) * (4 + r)) / target.value;
-    case Knob::radius_multiplier:
+    case FreeParameter::radius_multiplier:
       return young ? modulus_by_radius : poisson_by_radius / target.value;
     default:
       return 0;
   }
 }
 
-double secant_slope(const Target &target, Knob knob, const Choice &at) {
-  return knob == Knob::shear_strength ? secant_by_ratio : elastic_slope(target, knob, at);
+double secant_slope(const Target &target, FreeParameter parameter, const Choice &at) {
+  return parameter == FreeParameter::shear_strength ? secant_by_ratio : elastic_slope(target, parameter, at);
 }
 
-double strength_slope(const Target &target, Knob knob, double share) {
+double strength_slope(const Target &target, FreeParameter parameter, double share) {
   const bool ratio = target.kind == TargetKind::ratio, tension = target.kind == TargetKind::tension,
              confined = target.kind == TargetKind::strength_at_pressure || ratio;
-  switch (knob) {
-    case Knob::modulus:
+  switch (parameter) {
+    case FreeParameter::modulus:
       return target.kind == TargetKind::strain_at_peak ? -1 : 0;
-    case Knob::tensile_strength:
+    case FreeParameter::tensile_strength:
       return ratio ? 0 : share;
-    case Knob::shear_strength:
+    case FreeParameter::shear_strength:
       return tension ? 0 : (confined ? confined_by_ratio : compressive_by_ratio);
-    case Knob::moment_contribution:
+    case FreeParameter::moment_contribution:
       return tension || ratio ? 0 : compressive_by_moments;
-    case Knob::friction_angle:
+    case FreeParameter::friction_angle:
       return tension ? 0 : (confined ? confined_by_friction : compressive_by_friction);
-    case Knob::compression_limits:
+    case FreeParameter::compression_limits:
       return confined ? confined_by_limits : 0;
-    case Knob::contact_friction:
+    case FreeParameter::contact_friction:
       return confined ? confined_by_contacts : 0;
     default:
       return 0;
@@ -66,12 +66,13 @@ double strength_slope(const Target &target, Knob knob, double share) {
 }
 
 // s(e) = S F(e G/S): stresses in proportion to the strengths S and strains to S over the modulus G.
-double curve_slope(const TargetCurve &curve, Knob knob, double strain) {
+double curve_slope(const TargetCurve &curve, FreeParameter parameter, double strain) {
   const double step = 0.5 * curve.last_strain() / curve_points, from = strain - step,
                to = std::min(strain + step, curve.last_strain());
   const double steep = strain * (curve.stress_at(to) - curve.stress_at(from)) / (to - from);
-  if (knob == Knob::modulus) return steep / curve.largest_stress();
-  if (knob == Knob::tensile_strength) return (curve.stress_at(strain) - steep) / curve.largest_stress();
+  if (parameter == FreeParameter::modulus) return steep / curve.largest_stress();
+  if (parameter == FreeParameter::tensile_strength)
+    return (curve.stress_at(strain) - steep) / curve.largest_stress();
   return 0;
 }
 
@@ -89,9 +90,9 @@ Eigen::MatrixXd Space::guess(const Goals &goals, const std::vector<std::size_t> 
   Eigen::Index rows = 0;
   for (const std::size_t k : of)
     rows += goals.rows(k);
-  Eigen::MatrixXd slopes(rows, static_cast<Eigen::Index>(knobs_.size()));
-  for (std::size_t column = 0; column < knobs_.size(); ++column) {
-    const Knob knob = knobs_[column];
+  Eigen::MatrixXd slopes(rows, static_cast<Eigen::Index>(free_.size()));
+  for (std::size_t column = 0; column < free_.size(); ++column) {
+    const FreeParameter parameter = free_[column];
     Eigen::Index row = 0;
     const auto put = [&](double slope) {
       slopes(row++, static_cast<Eigen::Index>(column)) = axes_[column].unit * slope;
@@ -100,16 +101,16 @@ Eigen::MatrixXd Space::guess(const Goals &goals, const std::vector<std::size_t> 
       const Goal &goal = goals.all()[k];
       const double scale = goals.scale(k);
       if (goal.elastic())
-        put(scale * elastic_slope(goal.target, knob, start_));
+        put(scale * elastic_slope(goal.target, parameter, start_));
       else if (goal.target.kind == TargetKind::other)
         put(0);
       else if (goal.target.kind == TargetKind::secant_ratio)
-        put(scale * secant_slope(goal.target, knob, start_));
+        put(scale * secant_slope(goal.target, parameter, start_));
       else if (!goal.curve)
-        put(scale * strength_slope(goal.target, knob, share_of(goals, goal.target)));
+        put(scale * strength_slope(goal.target, parameter, share_of(goals, goal.target)));
       else
         for (std::size_t point = 1; point <= curve_points; ++point)
-          put(scale * curve_slope(*goal.curve, knob,
+          put(scale * curve_slope(*goal.curve, parameter,
                                   goal.curve->last_strain() * static_cast<double>(point) / curve_points));
     }
   }

@@ -123,12 +123,12 @@ std::vector<Measured> measure(const Goals &goals, const std::vector<unsigned lon
 }
 
 // One trial a line: what was changed, what came of it.
-void tell_trial(const Goals &goals, const std::vector<Knob> &knobs, const Choice &choice, const Measured &m,
-                bool elastic, int trial, RunLog &log) {
+void tell_trial(const Goals &goals, const std::vector<FreeParameter> &free, const Choice &choice,
+                const Measured &m, bool elastic, int trial, RunLog &log) {
   std::string text = elastic ? "  static solve:" : fmt::format("  trial {}:", trial);
-  for (const Knob knob : knobs)
-    if (const KnobFacts facts = facts_of(goals.asked(), knob); !elastic || facts.elastic)
-      text += " " + text_of(facts, choice[knob]) + ",";
+  for (const FreeParameter parameter : free)
+    if (const ParameterFacts facts = facts_of(goals.asked(), parameter); !elastic || facts.elastic)
+      text += " " + text_of(facts, choice[parameter]) + ",";
   text.back() = ':';
   for (const std::size_t k : elastic ? goals.wanted_elastic() : goals.wanted())
     text += fmt::format(" {} {};", goals.all()[k].words,
@@ -143,13 +143,13 @@ void tell_trial(const Goals &goals, const std::vector<Knob> &knobs, const Choice
 Judged find(const Scene &scene, const Goals &goals, Trials &trials, RunLog &log) {
   constexpr std::size_t most_rounds = 3;
   const std::vector<unsigned long> seeds = training_seeds(scene);
-  const std::vector<Knob> knobs = knobs_of(scene);
+  const std::vector<FreeParameter> free = parameters_of(scene);
   const bool elastic = goals.wanted_elastic().size() == goals.wanted().size();
   int trial = 0;
   const Measurement test = [&](const std::vector<Choice> &choices, bool elastic_alone) {
     std::vector<Measured> all = measure(goals, seeds, choices, elastic_alone, trials, log);
     for (std::size_t k = 0; k < all.size(); ++k)
-      tell_trial(goals, knobs, choices[k], all[k], elastic_alone, elastic_alone ? 0 : ++trial, log);
+      tell_trial(goals, free, choices[k], all[k], elastic_alone, elastic_alone ? 0 : ++trial, log);
     return all;
   };
   std::vector<Measured> trained, unseen;
@@ -225,8 +225,8 @@ int run_calibrate(const CommandLine &command, const Scene &scene) {
       write_curves(*goals, judged, output.paths);
       write_found(command, scene, *goals, judged, output);
       std::string found = "calibrated:";
-      for (const Knob knob : knobs_of(scene))
-        found += " " + text_of(facts_of(goals->asked(), knob), judged.found.choice[knob]) + ",";
+      for (const FreeParameter parameter : parameters_of(scene))
+        found += " " + text_of(facts_of(goals->asked(), parameter), judged.found.choice[parameter]) + ",";
       found.back() = '\n';
       output.log.info("{}{}{}", found, table_of(*goals, judged), findings(*goals, scene, judged));
     }

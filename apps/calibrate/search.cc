@@ -75,9 +75,9 @@ bool Pass::ends(const Measured &measured) const {
 }
 
 bool Pass::bends_a_curve() const {
-  return space_.free(Knob::compression_limits) && std::any_of(of_.begin(), of_.end(), [&](std::size_t k) {
-           return goals_.all()[k].curve.has_value();
-         });
+  return space_.free(FreeParameter::compression_limits) &&
+         std::any_of(of_.begin(), of_.end(),
+                     [&](std::size_t k) { return goals_.all()[k].curve.has_value(); });
 }
 
 // Whether any of them tells something.
@@ -153,8 +153,8 @@ Found Pass::operator()() {
   for (int in_vain = 0; x && !done() && trials_ < most();) {
     if (!try_all({*x})) {
       if (!too_fast_.empty()) break; // weaker bonds fail sooner still
-      if (++in_vain > most_weaker || !space_.free(Knob::tensile_strength)) break;
-      x = space_.scaled(*x, Knob::tensile_strength, weaker);
+      if (++in_vain > most_weaker || !space_.free(FreeParameter::tensile_strength)) break;
+      x = space_.scaled(*x, FreeParameter::tensile_strength, weaker);
       continue;
     }
     const bool differences = !elastic_ && (calibrate_of(scene_).measures_differences() || bends_a_curve());
@@ -183,7 +183,7 @@ Found Pass::found() const {
   to.choice = tried_[best], to.measured = corrected(measured_[best], correction_);
   to.trials = elastic_ ? 0 : trials_;
   to.at_bounds = space_.at_bounds(to.choice);
-  to.sensitivities = {of_, space_.knobs(), space_.by_logarithms(model_.slopes(), to.choice),
+  to.sensitivities = {of_, space_.free(), space_.by_logarithms(model_.slopes(), to.choice),
                       goals_.responses(of_, to.measured), differences_ > 0};
   return to;
 }
@@ -201,16 +201,16 @@ bool proportional(const Scene &scene) {
 } // namespace
 
 Found search(const Scene &scene, const Goals &goals, const Measurement &test, const Judge &judge) {
-  std::vector<Knob> knobs = knobs_of(scene), elastic;
-  std::copy_if(knobs.begin(), knobs.end(), std::back_inserter(elastic),
-               [&](Knob knob) { return facts_of(calibrate_of(scene), knob).elastic; });
+  std::vector<FreeParameter> free = parameters_of(scene), elastic;
+  std::copy_if(free.begin(), free.end(), std::back_inserter(elastic),
+               [&](FreeParameter parameter) { return facts_of(calibrate_of(scene), parameter).elastic; });
   const std::vector<std::size_t> wanted = goals.wanted(), by_solves = goals.wanted_elastic();
   Found found;
   found.choice = choice_of(scene);
   if (!by_solves.empty() && !elastic.empty())
     found = Pass(scene, goals, test, {scene, found.choice, elastic}, by_solves, true, true)();
   if (by_solves.size() == wanted.size() && !elastic.empty()) return found;
-  Pass pass(scene, goals, test, {scene, found.choice, knobs}, wanted, false, proportional(scene));
+  Pass pass(scene, goals, test, {scene, found.choice, free}, wanted, false, proportional(scene));
   found = pass();
   while (judge) {
     const std::optional<Correction> correction = judge(found);

@@ -17,8 +17,8 @@ using Measurement =
 // How the responses of the wanted goals go with what is free, at the best trial.
 struct Sensitivities {
   std::vector<std::size_t> goals;
-  std::vector<Knob> knobs;
-  Eigen::MatrixXd slopes;    // changes of responses (rows of Goals::responses) by logarithms of the knobs
+  std::vector<FreeParameter> free;
+  Eigen::MatrixXd slopes; // changes of responses (rows of Goals::responses) by logarithms of the parameters
   Eigen::VectorXd responses; // there
   bool measured = false;     // by differences and trials; else the trials have only corrected a guess
 };

@@ -16,25 +16,25 @@ namespace platen::apps {
 
 // What Calibrate/Free and Parameter 1, ... name, else what the targets need; those whose bounds leave them no
 // room are left out.
-std::vector<Knob> knobs_of(const Scene &scene);
+std::vector<FreeParameter> parameters_of(const Scene &scene);
 
 class Space {
 public:
   // About a choice, which is held where it is not free.
-  Space(const Scene &scene, const Choice &start, const std::vector<Knob> &knobs);
+  Space(const Scene &scene, const Choice &start, const std::vector<FreeParameter> &free);
 
-  const std::vector<Knob> &knobs() const { return knobs_; }
-  bool free(Knob knob) const;
+  const std::vector<FreeParameter> &free() const { return free_; }
+  bool free(FreeParameter parameter) const;
   Choice choice(const Eigen::VectorXd &x) const;
   // With a free number whose coordinate is its logarithm times a factor.
-  Eigen::VectorXd scaled(Eigen::VectorXd x, Knob knob, double factor) const;
+  Eigen::VectorXd scaled(Eigen::VectorXd x, FreeParameter parameter, double factor) const;
   // With the start, bounds, steps, and whether strengths grow in proportion to the bonds' whatever the trials
   // say (`exact`).
   std::vector<SearchParameter> parameters(bool exact) const;
   // What slopes begin with, by rows of responses: Voigt's formulas, and what was seen of one concrete.
   Eigen::MatrixXd guess(const Goals &goals, const std::vector<std::size_t> &of) const;
-  // Slopes by the coordinates as slopes by the logarithms of the knobs themselves at a choice; of a number
-  // that may be zero, and is less than a tenth of its room, by that tenth.
+  // Slopes by the coordinates as slopes by the logarithms of the parameters themselves at a choice; of a
+  // number that may be zero, and is less than a tenth of its room, by that tenth.
   Eigen::MatrixXd by_logarithms(const Eigen::MatrixXd &slopes, const Choice &at) const;
   // "stiffness ratio 0.02 is at its bound"; those of a choice that are.
   std::vector<std::string> at_bounds(const Choice &at) const;
@@ -44,15 +44,15 @@ private:
     bool logarithm;
     double unit, low, high, step; // bounds of the number itself, step in units
   };
-  Axis axis_of(const Scene &scene, Knob knob) const;
-  std::size_t place(Knob knob) const;                  // of one that is free
-  double number(Knob knob, const Choice &of) const;    // that the axis is of
-  static double place(const Axis &axis, double value); // its coordinate
+  Axis axis_of(const Scene &scene, FreeParameter parameter) const;
+  std::size_t place(FreeParameter parameter) const;               // of one that is free
+  double number(FreeParameter parameter, const Choice &of) const; // that the axis is of
+  static double place(const Axis &axis, double value);            // its coordinate
   static double on_its_bound(const Axis &axis, double value);
 
   const Calibrate &asked_;
   Choice start_;
-  std::vector<Knob> knobs_;
+  std::vector<FreeParameter> free_;
   std::vector<Axis> axes_;
 };
 

@@ -21,8 +21,8 @@ namespace {
 Choice deciding(const Scene &scene, const Trial &t) {
   Choice c = t.choice;
   const Choice own = choice_of(scene);
-  for (const KnobFacts &knob : knob_facts(calibrate_of(scene)))
-    if (!t.test.loads() && !knob.elastic) c[knob.knob] = own[knob.knob];
+  for (const ParameterFacts &parameter : parameter_facts(calibrate_of(scene)))
+    if (!t.test.loads() && !parameter.elastic) c[parameter.parameter] = own[parameter.parameter];
   return c;
 }
 
@@ -170,9 +170,9 @@ void Trials::write() const {
   for (const Trial &t : asked_)
     for (const std::string &key : t.test.figures)
       if (std::find(figures.begin(), figures.end(), key) == figures.end()) figures.push_back(key);
-  const std::vector<KnobFacts> knobs = knob_facts(calibrate_of(scene_));
-  for (const KnobFacts &knob : knobs)
-    columns.push_back(knob.column);
+  const std::vector<ParameterFacts> free = parameter_facts(calibrate_of(scene_));
+  for (const ParameterFacts &parameter : free)
+    columns.push_back(parameter.column);
   columns.emplace_back("status");
   columns.insert(columns.end(), figures.begin(), figures.end());
   WholeTable table(paths_.folder / "trials.csv", columns);
@@ -180,8 +180,8 @@ void Trials::write() const {
     const TrialResult &result = known_.at(key_of(t));
     const std::string status = one_cell(result.status);
     std::vector<CsvCell> cells{t.test.name, t.seed};
-    for (const KnobFacts &knob : knobs)
-      cells.emplace_back(deciding(scene_, t)[knob.knob]);
+    for (const ParameterFacts &parameter : free)
+      cells.emplace_back(deciding(scene_, t)[parameter.parameter]);
     cells.emplace_back(status);
     for (const std::string &key : figures)
       cells.emplace_back(result.number(key));

@@ -63,17 +63,17 @@ ClosestPoint on_boundary(const Quad &q) {
   return best;
 }
 
-// Where a flat quad is convex, the foot of the perpendicular decides between face and rim.
-enum class Foot { inside, outside, unknown };
+// Where a flat quad is convex, the closest point of the perpendicular decides between face and rim.
+enum class Projection { inside, outside, unknown };
 
-Foot foot_on_flat_quad(const Quad &q, const Vector3 &across) {
-  Foot foot = Foot::inside;
+Projection projection_on_flat_quad(const Quad &q, const Vector3 &across) {
+  Projection projection = Projection::inside;
   for (std::size_t k = 0; k < 4; ++k) {
     const Vector3 edge = q[(k + 1) % 4] - q[k], next = q[(k + 2) % 4] - q[(k + 1) % 4];
-    if (dot(cross(edge, next), across) < 0) return Foot::unknown;
-    if (norm_squared(edge) > 0 && !(dot(cross(edge, -q[k]), across) > 0)) foot = Foot::outside;
+    if (dot(cross(edge, next), across) < 0) return Projection::unknown;
+    if (norm_squared(edge) > 0 && !(dot(cross(edge, -q[k]), across) > 0)) projection = Projection::outside;
   }
-  return foot;
+  return projection;
 }
 
 bool inside(double u, double v) {
@@ -92,9 +92,9 @@ bool project_parallelogram(const Quad &q, double &u, double &v) {
   return inside(u, v);
 }
 
-// Coordinates of the foot on a flat convex quad, where they come out inside: in the plane,
-// (foot - q0 - v f) and (e + v t) are parallel, a quadratic equation for v. A start for the descent, which
-// finishes in a step or two.
+// Coordinates of the closest point on a flat convex quad, where they come out inside: in the plane,
+// (closest point - q0 - v f) and (e + v t) are parallel, a quadratic equation for v. A start for the descent,
+// which finishes in a step or two.
 void invert_flat_quad(const Quad &q, const Vector3 &twist, const Vector3 &across, double &u, double &v) {
   const Vector3 e = q[1] - q[0], f = q[3] - q[0], h = -q[0];
   const auto plane = [&](const Vector3 &a, const Vector3 &b) { return dot(cross(a, b), across); };
@@ -167,11 +167,11 @@ double farthest(const Quad &q, const Vector3 &n) {
 
 } // namespace
 
-double single_foot_within(const Quad &q, const Vector3 &n) {
+double single_closest_within(const Quad &q, const Vector3 &n) {
   const dem::Triple<double> corners[4] = {dem::triple_of(q[0]), dem::triple_of(q[1]), dem::triple_of(q[2]),
                                           dem::triple_of(q[3])};
-  return face_setup::single_foot<dem::OfScalars>(corners, dem::triple_of((q[0] - q[1]) + (q[2] - q[3])),
-                                                 dem::triple_of(n));
+  return face_setup::single_closest<dem::OfScalars>(corners, dem::triple_of((q[0] - q[1]) + (q[2] - q[3])),
+                                                    dem::triple_of(n));
 }
 
 double preference(const ClosestPoint &point) {
@@ -217,13 +217,13 @@ ClosestPoint closest_point(const Quad &q) {
   const Vector3 across = cross(first, second);
   const double area = norm(across);
   const bool flat = area > 0 && std::abs(dot(twist, across)) <= warped * size * area;
-  const Foot foot = flat ? foot_on_flat_quad(q, across) : Foot::unknown;
-  if (foot == Foot::outside) return on_boundary(q);
+  const Projection projection = flat ? projection_on_flat_quad(q, across) : Projection::unknown;
+  if (projection == Projection::outside) return on_boundary(q);
   // A flat convex quad has one minimum.
-  if (foot == Foot::inside) invert_flat_quad(q, twist, across, u, v);
-  if (foot == Foot::inside && descend(q, twist, u, v)) return at(q, u, v);
+  if (projection == Projection::inside) invert_flat_quad(q, twist, across, u, v);
+  if (projection == Projection::inside && descend(q, twist, u, v)) return at(q, u, v);
   const Vector3 normal = area > 0 ? across / area : Vector3{};
-  if (!flat && area > 0 && farthest(q, normal) < single_foot_within(q, normal)) {
+  if (!flat && area > 0 && farthest(q, normal) < single_closest_within(q, normal)) {
     invert_flat_quad(q, twist, across, u, v);
     return descend(q, twist, u, v) ? at(q, u, v) : on_boundary(q);
   }

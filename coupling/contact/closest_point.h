@@ -30,12 +30,13 @@ struct ClosestPoint {
 ClosestPoint closest_point(const Quad &corners);
 
 // Distance (m) from the mean plane of a quad, with the unit normal of that plane, within which all corners
-// have to lie for the query point to have a single foot on it; negative where the quad is not convex.
-double single_foot_within(const Quad &corners, const Vector3 &normal);
+// have to lie for the query point to have a single closest point on it; negative where the quad is not
+// convex.
+double single_closest_within(const Quad &corners, const Vector3 &normal);
 
-// Orders candidates: the smallest comes first. Near an edge, the foot on one face and the edge point of its
-// neighbour are equally far to round-off, although their directions may differ by the root of it (1e-8); so a
-// face goes before an edge and an edge before a vertex when squared distances agree to 1e-14.
+// Orders candidates: the smallest comes first. Near an edge, the closest point on one face and the edge point
+// of its neighbour are equally far to round-off, although their directions may differ by the root of it
+// (1e-8); so a face goes before an edge and an edge before a vertex when squared distances agree to 1e-14.
 double preference(const ClosestPoint &point); // m^2
 
 // Weights at (u, v); their sum is exactly 1.

@@ -101,7 +101,7 @@ ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSur
   const bool plain = !parameters.hertz && seat_spring_ == nullptr &&
                      parameters.attachment == Attachment::free &&
                      (!friction || std::holds_alternative<dem::CoulombFriction>(friction_));
-  if (plain && parameters.in_packs) compute_rows_ = kernels::compute_rows(parameters.instruction_set);
+  if (plain && parameters.in_lanes) compute_rows_ = kernels::compute_rows(parameters.instruction_set);
 }
 
 std::size_t ContactLayer::add_row(int particle) {

@@ -62,7 +62,7 @@ struct SurfaceContact : dem::SurfaceFriction {
   double skin =
       std::numeric_limits<double>::quiet_NaN(); // m, of the search; a third of the mean radius is good
   dem::InstructionSet instruction_set = dem::best_instruction_set(); // changes no bit
-  bool in_packs = true; // rows in vectors, where all effects of the layer have them; changes no bit
+  bool in_lanes = true; // rows in vectors, where all effects of the layer have them; changes no bit
 };
 
 // One contact as it is now, for output.
@@ -221,7 +221,7 @@ private:
   double seat_stiffness(double radius) const; // N m/rad, of a sphere's flat end
   bool tied(std::size_t row) const;
   bool holds_history(std::size_t row) const;
-  void compute_in_packs(const dem::Particles &particles, const fem::LoadedSurface &body, double dt,
+  void compute_in_lanes(const dem::Particles &particles, const fem::LoadedSurface &body, double dt,
                         std::size_t first, std::size_t count, const SurfacePoints &points);
   // With the point that it finds in `result.at`.
   void row_force(const dem::Particles &particles, const fem::LoadedSurface &body, std::size_t row, double dt,

@@ -85,7 +85,7 @@ void ContactLayer::compute_part(const dem::Particles &particles, const fem::Load
   }
   const Vector3 *position = particles.position.data();
   search_.closest(body.surface(), &due_[first], position, at, last - first, points);
-  if (compute_rows_ != nullptr) return compute_in_packs(particles, body, dt, first, last - first, points);
+  if (compute_rows_ != nullptr) return compute_in_lanes(particles, body, dt, first, last - first, points);
   for (std::size_t k = first; k < last; ++k) {
     const std::size_t row = due_[k];
     RowForce r;

@@ -1,5 +1,5 @@
-// What a face that moves is set up from its corners, for one face or for a pack of them: one text, so that
-// both give the same bits.
+// What a face that moves is set up from its corners, for one face or for a SIMD vector of them: one text, so
+// that both give the same bits.
 #pragma once
 
 #include "dem/laws/lanes.h"
@@ -10,7 +10,7 @@ namespace platen::coupling {
 template <class Real>
 struct FaceOfCorners {
   dem::Triple<Real> e, f, t, linear, free, corner, normal, along, across, middle, half;
-  Real square, constant, single_foot;
+  Real square, constant, single_closest;
 };
 
 namespace face_setup {
@@ -29,15 +29,15 @@ PLATEN_INLINE dem::Triple<Real> over(const dem::Triple<Real> &a, const Real &by)
   return {a.x / by, a.y / by, a.z / by};
 }
 
-// single_foot_within() (closest_point.h).
+// single_closest_within() (closest_point.h).
 //
 // Over the mean plane, |x|^2 / 2 = |p|^2 / 2 + z(p)^2 / 2 curves by 1 + z'^2 + z z'', and so upwards
 // everywhere where |z z''| < 1. With w the twist's part out of the plane, J the plane's part of (x_u, x_v)
 // and |z_u|, |z_v| <= |w| / 2: |z''| <= |w| (1 + |twist| |J^-1| / sqrt(2)) |J^-1|^2, |J^-1| <= |J| / det J.
 // det J is linear in u and v, least at a corner.
 template <class How, class Real>
-PLATEN_INLINE Real single_foot(const dem::Triple<Real> (&q)[4], const dem::Triple<Real> &twist,
-                               const dem::Triple<Real> &normal) {
+PLATEN_INLINE Real single_closest(const dem::Triple<Real> (&q)[4], const dem::Triple<Real> &twist,
+                                  const dem::Triple<Real> &normal) {
   using dem::cross, dem::dot;
   const Real zero = Real(0.0), one = Real(1.0);
   const dem::Triple<Real> side[4] = {q[1] - q[0], q[2] - q[1], q[3] - q[2], q[0] - q[3]};
@@ -67,8 +67,8 @@ PLATEN_INLINE Real half_box(const dem::Triple<Real> (&q)[4], const dem::Triple<R
 }
 } // namespace face_setup
 
-// Of corners in global axes (m). Where the result is false (lane by lane of a pack) the face has no area, and
-// nothing is said.
+// Of corners in global axes (m). Where the result is false (lane by lane of a SIMD vector) the face has no
+// area, and nothing is said.
 template <class How, class Real>
 PLATEN_INLINE auto set_face(const dem::Triple<Real> (&q)[4], FaceOfCorners<Real> &face) {
   using dem::cross, dem::dot, dem::scale;
@@ -90,7 +90,7 @@ PLATEN_INLINE auto set_face(const dem::Triple<Real> (&q)[4], FaceOfCorners<Real>
   face.half.x = half_box<How>(q, face.along, noise, face.middle);
   face.half.y = half_box<How>(q, face.across, noise, face.middle);
   face.half.z = half_box<How>(q, face.normal, noise, face.middle);
-  face.single_foot = single_foot<How>(q, face.t, face.normal) - Real(2.0) * face.half.z;
+  face.single_closest = single_closest<How>(q, face.t, face.normal) - Real(2.0) * face.half.z;
   const auto plane = [&](const dem::Triple<Real> &a, const dem::Triple<Real> &b) {
     return dot(cross(a, b), face.normal);
   };

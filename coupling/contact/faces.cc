@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/contact/closest_on_face.h"
 #include "coupling/contact/face_of_corners.h"
-#include "coupling/contact/foot_of_face.h"
 #include "coupling/contact/surface_search.h"
 
 namespace platen::coupling {
@@ -18,9 +18,9 @@ double size_of(const Quad &q) {
   return std::max(norm(q[2] - q[0]), norm(q[3] - q[1]));
 }
 
-using foot_search::rim;
+using closest_search::rim;
 
-// Any axes hold for the box; nothing has a foot.
+// Any axes hold for the box; nothing has a closest point.
 void set_without_area(const Quad &q, MovingFace &face) {
   Vector3 low, high; // of the first corner
   for (std::size_t k = 1; k < 4; ++k)
@@ -122,7 +122,7 @@ MovingFace moving_face(const Quad &q) {
   const auto vector = dem::vector_of;
   face.linear = vector(of.linear), face.free = vector(of.free);
   face.square = of.square, face.constant = of.constant;
-  face.normal = vector(of.normal), face.single_foot = of.single_foot;
+  face.normal = vector(of.normal), face.single_closest = of.single_closest;
   face.along = vector(of.along), face.across = vector(of.across);
   face.middle = vector(of.middle), face.half = vector(of.half);
   return face;
@@ -136,31 +136,31 @@ double least_distance_squared(const MovingFace &face, const Vector3 &centre) {
   return a * a + b * b + c * c;
 }
 
-bool find_foot(const FlatFace &face, const Vector3 &centre, FlatFoot &foot) {
+bool find_closest(const FlatFace &face, const Vector3 &centre, FlatPoint &closest) {
   const auto triple = dem::triple_of;
   const FlatMap<double> map{triple(face.e),      triple(face.f),    triple(face.t),
                             triple(face.linear), triple(face.free), triple(face.normal),
                             face.square,         face.constant,     face.flat};
-  FootOnFlat<double> found;
-  if (!search_flat_foot<dem::OfScalars>(map, dem::triple_of(centre), found)) return false;
-  foot = {found.u, found.v, found.distance};
+  ClosestOnFlat<double> found;
+  if (!search_flat_closest<dem::OfScalars>(map, dem::triple_of(centre), found)) return false;
+  closest = {found.u, found.v, found.distance};
   return true;
 }
 
-bool find_foot(const MovingFace &face, const Vector3 &centre, Foot &foot) {
+bool find_closest(const MovingFace &face, const Vector3 &centre, FacePoint &closest) {
   const auto triple = dem::triple_of;
   const auto vector = dem::vector_of;
   const FaceMap<double> map{triple(face.e),    triple(face.f),      triple(face.t),      triple(face.linear),
                             triple(face.free), triple(face.corner), triple(face.normal), face.square,
-                            face.constant,     face.single_foot};
-  FootOnFace<double> found;
-  if (!search_foot<dem::OfScalars>(map, triple(centre), found)) return false;
-  foot = {found.u,
-          found.v,
-          vector(found.out),
-          vector(found.along_u),
-          vector(found.along_v),
-          vector(found.normal)};
+                            face.constant,     face.single_closest};
+  ClosestOnFace<double> found;
+  if (!search_closest<dem::OfScalars>(map, triple(centre), found)) return false;
+  closest = {found.u,
+             found.v,
+             vector(found.out),
+             vector(found.along_u),
+             vector(found.along_v),
+             vector(found.normal)};
   return true;
 }
 

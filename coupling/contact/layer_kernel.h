@@ -1,6 +1,6 @@
-// Rows of a contact layer in packs, where the layer has but linear springs, dashpots and Coulomb's friction
-// with two coefficients: no Hertz, glue, seats or friction that weakens. One source, compiled once per
-// instruction set (layer_kernel.inc.h), to the bits of ContactLayer::row_force.
+// Rows of a contact layer in SIMD vectors, where the layer has but linear springs, dashpots and Coulomb's
+// friction with two coefficients: no Hertz, glue, seats or friction that weakens. One source, compiled once
+// per instruction set (layer_kernel.inc.h), to the bits of ContactLayer::row_force.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// What the spring of a contact leaves to the mesh below it, for one contact or for a pack of them: one text,
-// so that both give the same bits.
+// What the spring of a contact leaves to the mesh below it, for one contact or for a SIMD vector of them: one
+// text, so that both give the same bits.
 #pragma once
 
 #include "dem/laws/lanes.h"

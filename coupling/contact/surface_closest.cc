@@ -30,19 +30,19 @@ double box_distance_squared(const Quad &q) {
   return box.distance_squared({});
 }
 
-void set_foot(const Foot &foot, SurfacePoint &point) {
+void set_point(const FacePoint &closest, SurfacePoint &point) {
   ClosestPoint &local = point.local;
-  local.point = -foot.out;
-  local.weights = bilinear_weights(foot.u, foot.v);
-  local.u = foot.u;
-  local.v = foot.v;
-  local.distance_squared = norm_squared(foot.out);
+  local.point = -closest.out;
+  local.weights = bilinear_weights(closest.u, closest.v);
+  local.u = closest.u;
+  local.v = closest.v;
+  local.distance_squared = norm_squared(closest.out);
   local.feature = Feature::face;
   local.local = 0;
-  point.normal = foot.normal;
-  point.distance = dot(foot.out, foot.normal);
-  point.along_u = foot.along_u;
-  point.along_v = foot.along_v;
+  point.normal = closest.normal;
+  point.distance = dot(closest.out, closest.normal);
+  point.along_u = closest.along_u;
+  point.along_v = closest.along_v;
 }
 
 } // namespace
@@ -51,29 +51,29 @@ Vector3 SurfaceSearch::from_corner(const SurfaceMesh &surface, int face, const V
   return centre - vertex_at(surface, corners_of(surface, face)[0]);
 }
 
-void SurfaceSearch::set_flat_foot(int face, const FlatFoot &foot, SurfacePoint &result) const {
+void SurfaceSearch::set_flat_point(int face, const FlatPoint &closest, SurfacePoint &result) const {
   result.face = face;
   result.normal = flat_.face(face).normal;
-  result.distance = foot.distance;
+  result.distance = closest.distance;
   result.local = ClosestPoint{};
-  result.local.point = -foot.distance * result.normal;
-  result.local.weights = bilinear_weights(foot.u, foot.v);
-  result.local.u = foot.u;
-  result.local.v = foot.v;
-  result.local.distance_squared = foot.distance * foot.distance;
+  result.local.point = -closest.distance * result.normal;
+  result.local.weights = bilinear_weights(closest.u, closest.v);
+  result.local.u = closest.u;
+  result.local.v = closest.v;
+  result.local.distance_squared = closest.distance * closest.distance;
 }
 
-// The foot on a flat face of a surface that has not turned since the search was set up.
-bool SurfaceSearch::foot(const SurfaceMesh &surface, int face, const Vector3 &centre,
-                         SurfacePoint &result) const {
-  FlatFoot foot;
-  if (!surface.only_shifted || !find_foot(flat_.face(face), from_corner(surface, face, centre), foot))
+// The closest point on a flat face of a surface that has not turned since the search was set up.
+bool SurfaceSearch::closest(const SurfaceMesh &surface, int face, const Vector3 &centre,
+                            SurfacePoint &result) const {
+  FlatPoint closest;
+  if (!surface.only_shifted || !find_closest(flat_.face(face), from_corner(surface, face, centre), closest))
     return false;
-  set_flat_foot(face, foot, result);
+  set_flat_point(face, closest, result);
   return true;
 }
 
-// Of a foot on a face listed: every other one lies in the same plane or farther away.
+// Of a closest point on a face listed: every other one lies in the same plane or farther away.
 bool SurfaceSearch::others_are_farther(std::size_t k, int face, double distance) const {
   const double limit = std::abs(distance) * (1 + margin);
   const int piece = flat_.piece(face);
@@ -85,10 +85,10 @@ bool SurfaceSearch::others_are_farther(std::size_t k, int face, double distance)
 }
 
 // The same, where it is sure to be the closest point of all. False says nothing.
-bool SurfaceSearch::foot_of_nearest(const SurfaceMesh &surface, std::size_t k, const Vector3 &centre,
-                                    SurfacePoint &result) const {
+bool SurfaceSearch::closest_on_nearest(const SurfaceMesh &surface, std::size_t k, const Vector3 &centre,
+                                       SurfacePoint &result) const {
   for (std::size_t n = first_near_[k]; n < first_near_[k + 1]; ++n)
-    if (foot(surface, near_[n].face, centre, result))
+    if (closest(surface, near_[n].face, centre, result))
       return others_are_farther(k, result.face, result.distance);
   return false;
 }
@@ -96,22 +96,22 @@ bool SurfaceSearch::foot_of_nearest(const SurfaceMesh &surface, std::size_t k, c
 bool SurfaceSearch::nearest_on(const SurfaceMesh &surface, int face, const Vector3 &centre,
                                const MovingFace *moving, SurfacePoint &nearest) const {
   nearest.face = face;
-  Foot foot;
-  if (moving == nullptr || !find_foot(*moving, centre, foot)) {
+  FacePoint closest;
+  if (moving == nullptr || !find_closest(*moving, centre, closest)) {
     nearest.local = closest_point(face_corners(surface, face, centre));
     return false;
   }
-  set_foot(foot, nearest);
+  set_point(closest, nearest);
   return true;
 }
 
 SurfacePoint SurfaceSearch::closest(const SurfaceMesh &surface, std::size_t k, const Vector3 &centre) const {
   SurfacePoint point;
-  if (surface.only_shifted && foot_of_nearest(surface, k, centre, point)) return point;
+  if (surface.only_shifted && closest_on_nearest(surface, k, centre, point)) return point;
   return closest_listed(surface, k, centre);
 }
 
-// As foot_of_nearest does it: most have their foot on the first face listed.
+// As closest_on_nearest does it: most have their closest point on the first face listed.
 void SurfaceSearch::closest_on_flat(const SurfaceMesh &surface, const std::size_t *entry,
                                     const Vector3 *centre, const int *at, std::size_t count,
                                     SurfacePoints &points) const {
@@ -122,13 +122,14 @@ void SurfaceSearch::closest_on_flat(const SurfaceMesh &surface, const std::size_
     face[n] = &flat_.face(first);
     corner[n] = &vertex_at(surface, corners_of(surface, first)[0]);
   }
-  const std::uint32_t found = find_flat_feet_(face, corner, centre, at, count, points);
+  const std::uint32_t found = find_flat_closest_points_(face, corner, centre, at, count, points);
   for (std::size_t n = 0; n < count; ++n)
     if (!(found >> n & 1u) || !others_are_farther(entry[n], points.face[n], points.distance[n]))
       points.set(n, closest(surface, entry[n], centre[at[n]]), centre[at[n]]);
 }
 
-// A foot on the first face of the list is the answer where every other face listed is sure to be farther.
+// A closest point on the first face of the list is the answer where every other face listed is sure to be
+// farther.
 void SurfaceSearch::closest(const SurfaceMesh &surface, const std::size_t *entry, const Vector3 *centre,
                             const int *at, std::size_t count, SurfacePoints &points) const {
   if (surface.only_shifted) return closest_on_flat(surface, entry, centre, at, count, points);
@@ -142,7 +143,7 @@ void SurfaceSearch::closest(const SurfaceMesh &surface, const std::size_t *entry
     points.face[n] = first_face(entry[n]);
     face[n] = &moving_[static_cast<std::size_t>(points.face[n])];
   }
-  const std::uint32_t found = find_feet_(face, centre, at, count, points);
+  const std::uint32_t found = find_closest_points_(face, centre, at, count, points);
   for (std::size_t n = 0; n < count; ++n)
     if (!(found >> n & 1u) || !is_nearest(entry[n], centre[at[n]], points.distance_squared[n]))
       points.set(n, closest_listed(surface, entry[n], centre[at[n]]), centre[at[n]]);
@@ -211,7 +212,7 @@ SurfacePoint SurfaceSearch::with_normal(const SurfaceMesh &surface, int face, co
                                         const Vector3 &centre) const {
   SurfacePoint s;
   // The same formula as in closest() itself, so that no bit tells which of them it was.
-  if (local.feature == Feature::face && foot(surface, face, centre, s)) return s;
+  if (local.feature == Feature::face && closest(surface, face, centre, s)) return s;
   s.face = face;
   s.local = local;
   const Vector3 out = -local.point;

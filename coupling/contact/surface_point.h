@@ -17,7 +17,7 @@ struct SurfacePoint {
   Vector3 along_u, along_v;
 };
 
-// Of so many centres at most, a column each, as kernels write and read them in whole packs.
+// Of so many centres at most, a column each, as kernels write and read them in whole SIMD vectors.
 struct alignas(64) SurfacePoints {
   static constexpr std::size_t most = 32;
   double arm[3][most]{}, normal[3][most]{};      // m, from the centre; 1

@@ -24,8 +24,8 @@ Quad face_corners(const SurfaceMesh &surface, int face, const Vector3 &origin) {
 
 SurfaceSearch::SurfaceSearch(const SurfaceMesh &surface, double skin, dem::InstructionSet instruction_set)
     : skin_(skin),
-      find_feet_(kernels::find_feet(instruction_set)),
-      find_flat_feet_(kernels::find_flat_feet(instruction_set)),
+      find_closest_points_(kernels::find_closest_points(instruction_set)),
+      find_flat_closest_points_(kernels::find_flat_closest_points(instruction_set)),
       set_faces_(kernels::set_faces(instruction_set)),
       tree_(face_boxes(surface)),
       flat_(surface),

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/vector3.h"
+#include "coupling/contact/closest_kernel.h"
 #include "coupling/contact/closest_point.h"
 #include "coupling/contact/faces.h"
-#include "coupling/contact/foot_kernel.h"
 #include "coupling/contact/surface_point.h"
 #include "dem/particles.h"
 #include "fem/surface.h"
@@ -130,14 +130,14 @@ private:
   bool nearest_on(const fem::SurfaceMesh &surface, int face, const Vector3 &centre, const MovingFace *moving,
                   SurfacePoint &nearest) const;
   Vector3 from_corner(const fem::SurfaceMesh &surface, int face, const Vector3 &centre) const;
-  bool foot(const fem::SurfaceMesh &surface, int face, const Vector3 &centre, SurfacePoint &result) const;
-  void set_flat_foot(int face, const FlatFoot &foot, SurfacePoint &result) const;
+  bool closest(const fem::SurfaceMesh &surface, int face, const Vector3 &centre, SurfacePoint &result) const;
+  void set_flat_point(int face, const FlatPoint &closest, SurfacePoint &result) const;
   void closest_on_flat(const fem::SurfaceMesh &surface, const std::size_t *entry, const Vector3 *centre,
                        const int *at, std::size_t count, SurfacePoints &points) const;
   int first_face(std::size_t k) const { return near_[first_near_[k]].face; }
   bool others_are_farther(std::size_t k, int face, double distance) const;
-  bool foot_of_nearest(const fem::SurfaceMesh &surface, std::size_t k, const Vector3 &centre,
-                       SurfacePoint &result) const;
+  bool closest_on_nearest(const fem::SurfaceMesh &surface, std::size_t k, const Vector3 &centre,
+                          SurfacePoint &result) const;
   SurfacePoint with_normal(const fem::SurfaceMesh &surface, int face, const ClosestPoint &local,
                            const Vector3 &centre) const;
   Vector3 edge_normal(const fem::SurfaceMesh &surface, int face, const ClosestPoint &local,
@@ -145,8 +145,8 @@ private:
   Vector3 vertex_normal(const fem::SurfaceMesh &surface, int face, int corner, const Vector3 &centre) const;
 
   double skin_;
-  kernels::FindFeet find_feet_;
-  kernels::FindFlatFeet find_flat_feet_;
+  kernels::FindClosestPoints find_closest_points_;
+  kernels::FindFlatClosestPoints find_flat_closest_points_;
   kernels::SetFaces set_faces_;
   double travelled_ = std::numeric_limits<double>::infinity();
   BoxTree tree_;

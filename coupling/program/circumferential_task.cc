@@ -25,7 +25,7 @@ CircumferentialTask::CircumferentialTask(const Parameters &parameters) : paramet
     throw std::invalid_argument("circumferential control needs a rate, a wave transit and a speed limit");
 }
 
-void CircumferentialTask::begin(const Measures &m, double begun, const Handover &from) {
+void CircumferentialTask::begin(const Measures &m, double begun, const Transfer &from) {
   begun_ = begun;
   strain_found_ = m.circumferential_strain();
   speed_ = parameters_.platens.speed(m, from.asked) * static_cast<double>(parameters_.platens.places.size());

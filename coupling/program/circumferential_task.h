@@ -23,7 +23,7 @@ public:
   // Throws std::invalid_argument where the parameters are none.
   explicit CircumferentialTask(const Parameters &parameters);
 
-  void begin(const Measures &m, double begun, const Handover &from) override;
+  void begin(const Measures &m, double begun, const Transfer &from) override;
   void command(const Measures &m, Commands &asked) override;
   double fastest() const override { return parameters_.fastest; }
   Loads loads(double) const override { return Loads::by_widening; }

@@ -68,7 +68,7 @@ void Drive::describe(Archive &archive) {
   if (rate_control_) archive.part("rate_control", *rate_control_);
 }
 
-void RateTask::begin(const Measures &m, double begun, const Handover &) {
+void RateTask::begin(const Measures &m, double begun, const Transfer &) {
   drive_->ask(rate_, ramp_, m, begun);
   begun_ = begun, path_ = 0;
   closure_found_ = drive_->platens().closure(m);

@@ -58,7 +58,7 @@ class RateTask : public Task {
 public:
   RateTask(std::shared_ptr<Drive> drive, double rate, double ramp, std::string side = "axial")
       : drive_(std::move(drive)), rate_(rate), ramp_(ramp), side_(std::move(side)) {}
-  void begin(const Measures &m, double begun, const Handover &) override;
+  void begin(const Measures &m, double begun, const Transfer &) override;
   void command(const Measures &m, Commands &asked) override;
   void update(const Measures &m) override { drive_->update(m); }
   // The mean rates of the stage: of the machine, and of the faces.

@@ -11,7 +11,7 @@ LoadingStage::LoadingStage(Parameters parameters, std::vector<std::unique_ptr<Ta
   forget_end();
 }
 
-void LoadingStage::on_begin(const Measures &m, const Handover &from) {
+void LoadingStage::on_begin(const Measures &m, const Transfer &from) {
   for (const auto &task : tasks_)
     task->begin(m, begun(), from);
   end_.begin(m, from);

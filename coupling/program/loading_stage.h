@@ -42,7 +42,7 @@ public:
   void describe(Archive &archive) override;
 
 protected:
-  void on_begin(const Measures &m, const Handover &from) override;
+  void on_begin(const Measures &m, const Transfer &from) override;
 
 private:
   struct AtEnd { // of a task, as its Controlled has it

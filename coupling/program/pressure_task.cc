@@ -19,7 +19,7 @@ double ahead(double once, double twice) {
 
 } // namespace
 
-void PressureTask::begin(const Measures &m, double begun, const Handover &from) {
+void PressureTask::begin(const Measures &m, double begun, const Transfer &from) {
   begun_ = begun;
   found_ = from.asked.empty() ? 0.0 : from.asked.at(parameters_.place).pressure;
   if (parameters_.path != 0) deviator_ = (found_ - parameters_.value) / parameters_.path;

@@ -28,7 +28,7 @@ public:
   // Throws std::invalid_argument where the parameters are none.
   explicit PressureTask(const Parameters &parameters);
 
-  void begin(const Measures &m, double begun, const Handover &from) override;
+  void begin(const Measures &m, double begun, const Transfer &from) override;
   void command(const Measures &m, Commands &asked) override;
   void update(const Measures &m) override;
   bool has_settled(const Measures &m) const override { return m.time() - begun_ >= parameters_.ramp; }
@@ -47,7 +47,7 @@ private:
 class HoldPressureTask : public Task {
 public:
   explicit HoldPressureTask(std::size_t place) : place_(place) {}
-  void begin(const Measures &, double, const Handover &from) override {
+  void begin(const Measures &, double, const Transfer &from) override {
     found_ = from.asked.empty() ? 0.0 : from.asked.at(place_).pressure;
   }
   void command(const Measures &, Commands &asked) override { asked[place_].pressure = found_; }

@@ -14,7 +14,7 @@ bool Controlled::is_met() const {
   return std::isfinite(asked) && std::abs(reached - asked) <= share * whole;
 }
 
-void Stage::begin(const Measures &m, const Handover &from, bool first) {
+void Stage::begin(const Measures &m, const Transfer &from, bool first) {
   if (!first) begun_ = m.time(), closure_at_begin_ = m.closure_strain();
   on_begin(m, from);
 }

@@ -50,7 +50,7 @@ inline double smooth_start(double x) {
 }
 
 // From one stage to the next.
-struct Handover {
+struct Transfer {
   Commands asked;               // in the step that has just ended; empty at the start of a test
   std::array<double, 3> zero{}; // closure strains along x, y, z from which strains count
 };
@@ -80,7 +80,7 @@ public:
   virtual ~Stage() = default;
   virtual std::string name() const = 0;
   // Once, before its first command; the first stage of a test has begun at 0 s with no closure.
-  void begin(const Measures &m, const Handover &from, bool first);
+  void begin(const Measures &m, const Transfer &from, bool first);
   // Of a step whose particles have drifted, before forces. Finds commands that ask for nothing.
   virtual void command(const Measures &m, Commands &asked) = 0;
   // After forces.
@@ -113,7 +113,7 @@ public:
   virtual void describe(Archive &archive);
 
 protected:
-  virtual void on_begin(const Measures &, const Handover &) {}
+  virtual void on_begin(const Measures &, const Transfer &) {}
 
 private:
   double begun_ = 0, closure_at_begin_ = 0; // s, 1

@@ -48,7 +48,7 @@ double StageEnd::now(const Measures &m, const Until &until) const {
   }
 }
 
-void StageEnd::begin(const Measures &m, const Handover &from) {
+void StageEnd::begin(const Measures &m, const Transfer &from) {
   for (std::size_t k = 0; k < seen_.size(); ++k) {
     const Until &until = parameters_.any[k];
     seen_[k].found = seen_[k].largest = now(m, until);

@@ -41,7 +41,7 @@ public:
   };
   explicit StageEnd(Parameters parameters);
 
-  void begin(const Measures &m, const Handover &from);
+  void begin(const Measures &m, const Transfer &from);
   void update(const Measures &m, double passed);
   // Which of `any` is met, from 1; `too_late` where none is though the latest time has come; 0: it goes on.
   // `passed`: s since the stage began; `settled`: all tasks have.

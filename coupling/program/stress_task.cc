@@ -34,7 +34,7 @@ StressTask::StressTask(Parameters parameters)
   }
 }
 
-void StressTask::begin(const Measures &m, double begun, const Handover &from) {
+void StressTask::begin(const Measures &m, double begun, const Transfer &from) {
   begun_ = begun;
   stress_found_ = parameters_.platens.stress(m);
   speed_found_ = parameters_.platens.speed(m, from.asked);

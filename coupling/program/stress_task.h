@@ -35,7 +35,7 @@ public:
   // Throws std::invalid_argument where the parameters are none.
   explicit StressTask(Parameters parameters);
 
-  void begin(const Measures &m, double begun, const Handover &from) override;
+  void begin(const Measures &m, double begun, const Transfer &from) override;
   void command(const Measures &m, Commands &asked) override;
   void update(const Measures &m) override;
   bool has_settled(const Measures &m) const override;

@@ -29,7 +29,7 @@ void PlatensOfAxis::move(const Measures &m, double inward, Commands &asked) cons
     asked[place].velocity = inward * m.inward(place);
 }
 
-void HoldTask::begin(const Measures &m, double begun, const Handover &from) {
+void HoldTask::begin(const Measures &m, double begun, const Transfer &from) {
   begun_ = begun;
   speed_found_ = platens_.speed(m, from.asked);
 }

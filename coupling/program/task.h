@@ -37,7 +37,7 @@ class Task {
 public:
   virtual ~Task() = default;
   // Once, when its stage begins, `begun` in s.
-  virtual void begin(const Measures &m, double begun, const Handover &from) = 0;
+  virtual void begin(const Measures &m, double begun, const Transfer &from) = 0;
   // Of a step whose particles have drifted, before forces. Finds commands that ask for nothing.
   virtual void command(const Measures &m, Commands &asked) = 0;
   // After forces.
@@ -56,7 +56,7 @@ public:
 class HoldTask : public Task {
 public:
   HoldTask(PlatensOfAxis platens, double ramp) : platens_(std::move(platens)), ramp_(ramp) {}
-  void begin(const Measures &m, double begun, const Handover &from) override;
+  void begin(const Measures &m, double begun, const Transfer &from) override;
   void command(const Measures &m, Commands &asked) override;
   void describe(Archive &archive) override;
 

@@ -4,12 +4,12 @@
 #pragma once
 
 #include "dem/kernels/bond_kernel.h"
-#include "dem/kernels/pack.inc.h"
+#include "dem/kernels/simd.inc.h"
 
 namespace platen::dem::kernels {
 namespace {
 
-// Rows of both ends of a pack of bonds.
+// Rows of both ends of a SIMD vector of bonds.
 struct Ends {
   double *rows; // of the block
   const PairBlocks::Ends *at;
@@ -35,8 +35,8 @@ PLATEN_INLINE Ends ends_of(const BondColumns &c, const BlockColumns &block, std:
   return {block.rows, c.ends + k};
 }
 
-// Ends of bonds [k, last), fewer than a pack. The lanes left over stand between the spare rows, which become
-// copies of the ends of the last bond.
+// Ends of bonds [k, last), fewer than a SIMD vector. The lanes left over stand between the spare rows, which
+// become copies of the ends of the last bond.
 struct TailEnds {
   PairBlocks::Ends at[lanes];
 };
@@ -53,8 +53,8 @@ TailEnds tail_ends(const BondColumns &c, const BlockColumns &block, std::size_t 
   return ends;
 }
 
-// Copies of the last rows of a block, when they do not fill a pack: the last one repeated, between the spare
-// rows.
+// Copies of the last rows of a block, when they do not fill a SIMD vector: the last one repeated, between the
+// spare rows.
 struct Tail {
   int first[lanes], second[lanes];
   Vector3 reference[lanes], dashpot_force[lanes], dashpot_moment[lanes];
@@ -97,7 +97,7 @@ struct Tail {
 };
 
 // From the first to the second ends.
-PLATEN_INLINE Triple<Pack> distances(const Ends &of) {
+PLATEN_INLINE Triple<Simd> distances(const Ends &of) {
   const Ends ends = of.again();
   Row rows[lanes];
   for (int l = 0; l < lanes; ++l)
@@ -106,12 +106,12 @@ PLATEN_INLINE Triple<Pack> distances(const Ends &of) {
 }
 // The same, m, and how fast they part, m/s, from rows with motion. (Member by member: of a copied vector the
 // compiler would keep another in memory.)
-PLATEN_INLINE void part(const Ends &of, Triple<Pack> &distance, Triple<Pack> &velocity) {
+PLATEN_INLINE void part(const Ends &of, Triple<Simd> &distance, Triple<Simd> &velocity) {
   const Ends ends = of.again();
   LongRow rows[lanes];
   for (int l = 0; l < lanes; ++l)
     rows[l] = load_long_row(ends.second(l)) - load_long_row(ends.first(l));
-  const Rotation<Pack> x = first_columns(rows), v = second_columns(rows);
+  const Rotation<Simd> x = first_columns(rows), v = second_columns(rows);
   distance.x = x.w, distance.y = x.x, distance.z = x.y;
   velocity.x = v.w, velocity.y = v.x, velocity.z = v.y;
 }
@@ -128,23 +128,23 @@ struct SecondEnd {
   PLATEN_INLINE const double *operator()(int lane) const { return ends.second(lane); }
 };
 template <class End>
-PLATEN_INLINE Rotation<Pack> columns_at(int place, const End &row) {
+PLATEN_INLINE Rotation<Simd> columns_at(int place, const End &row) {
   Row rows[lanes];
   for (int l = 0; l < lanes; ++l)
     rows[l] = load_row(row(l) + place);
   return to_columns(rows);
 }
 template <class Rows, class End>
-PLATEN_INLINE Rotation<Pack> orientations(const End &end) {
+PLATEN_INLINE Rotation<Simd> orientations(const End &end) {
   return columns_at(Rows::orientation, end);
 }
 template <class Rows, class End>
-PLATEN_INLINE Triple<Pack> spins(const End &end) { // rad/s
+PLATEN_INLINE Triple<Simd> spins(const End &end) { // rad/s
   return to_vector(columns_at(Rows::spin, end));
 }
 struct EndTurn {
-  Triple<Pack> spin; // rad/s
-  Rotation<Pack> orientation;
+  Triple<Simd> spin; // rad/s
+  Rotation<Simd> orientation;
 };
 template <class Rows, class End>
 PLATEN_INLINE EndTurn turn_of(const End &end) {
@@ -158,11 +158,11 @@ PLATEN_INLINE EndTurn turn_of(const End &end) {
 // Adds force and torques to the sums of both ends, bond by bond in row order.
 #if PLATEN_LANES == 8
 template <class Rows>
-PLATEN_INLINE void scatter_with_torques(const Ends &of, const Triple<Pack> &force,
-                                        const Triple<Pack> &torque_i, const Triple<Pack> &torque_j) {
+PLATEN_INLINE void scatter_with_torques(const Ends &of, const Triple<Simd> &force,
+                                        const Triple<Simd> &torque_i, const Triple<Simd> &torque_j) {
   const Ends ends = of.again();
   const RowTwos f = to_twos(force), ti = to_twos(torque_i);
-  const RowTwos tj = to_twos(Triple<Pack>{-torque_j.x, -torque_j.y, -torque_j.z});
+  const RowTwos tj = to_twos(Triple<Simd>{-torque_j.x, -torque_j.y, -torque_j.z});
   constexpr int at = Rows::sums;
   const auto add = [&](int l, const Native &to_first, const Native &from_second) {
     double *a = ends.first(l) + at, *b = ends.second(l) + at;
@@ -176,8 +176,8 @@ PLATEN_INLINE void scatter_with_torques(const Ends &of, const Triple<Pack> &forc
 }
 #endif
 template <class Rows>
-PLATEN_INLINE void scatter(const Ends &of, const Triple<Pack> &force, const Triple<Pack> &torque_i,
-                           const Triple<Pack> &torque_j) {
+PLATEN_INLINE void scatter(const Ends &of, const Triple<Simd> &force, const Triple<Simd> &torque_i,
+                           const Triple<Simd> &torque_j) {
   const Ends ends = of.again();
 #if PLATEN_LANES == 8
   if constexpr (Rows::rotation) return scatter_with_torques<Rows>(ends, force, torque_i, torque_j);

@@ -23,7 +23,7 @@ struct RowLayout {
   static constexpr int stride = row_stride(rotation, motion);
   static constexpr int sums = rotation ? stride - 8 : motion ? 8 : 4;
 };
-// After the rows of a block's own particles and of its ghosts, for bonds that fill up a pack.
+// After the rows of a block's own particles and of its ghosts, for bonds that fill up a SIMD vector.
 constexpr int spare_rows = 2;
 
 // One block of particles and the ghosts that its bonds reach, and where their sums go.
@@ -56,7 +56,7 @@ struct BondColumns {
 
 // What a pass over a block's bonds finds.
 struct BlockFindings {
-  bool reached = false;     // a bond may be at or above its strength; or an interface has failed in this step
+  bool reached = false; // a bond may be at or above its strength; or a cohesive bond has failed in this step
   double dashpot_power = 0; // W, sum of the dashpots' (force now + force before) times opening velocity
   std::size_t first_reached = 0, end_reached = 0; // all that reached are among these rows
 };

@@ -2,7 +2,7 @@
 #include "dem/kernels/block_rows.inc.h"
 #include "dem/kernels/bond_kernel.h"
 #include "dem/kernels/dashpots.inc.h"
-#include "dem/kernels/pack.inc.h"
+#include "dem/kernels/simd.inc.h"
 
 namespace platen::dem::kernels {
 namespace {
@@ -11,8 +11,8 @@ namespace {
 enum class Turning { none, forces, moments };
 
 template <bool factors>
-PLATEN_INLINE BondGeometry<Pack> geometry(const BondColumns &c, std::size_t k) {
-  BondGeometry<Pack> g;
+PLATEN_INLINE BondGeometry<Simd> geometry(const BondColumns &c, std::size_t k) {
+  BondGeometry<Simd> g;
   g.reference = load(c.reference + k);
   g.rest_length = load(c.rest_length + k);
   g.lever = load(c.lever + k);
@@ -31,41 +31,41 @@ struct LoopOf {
 };
 
 template <class Loop, class Law>
-PLATEN_INLINE BondResponse<Pack> respond(const BondColumns &c, const Law &law, std::size_t k,
-                                         const Ends &ends, const Triple<Pack> &d) {
+PLATEN_INLINE BondResponse<Simd> respond(const BondColumns &c, const Law &law, std::size_t k,
+                                         const Ends &ends, const Triple<Simd> &d) {
   using Rows = typename Loop::Rows;
   if constexpr (Rows::rotation)
     return law.template turning<Loop::turning == Turning::moments>(
         geometry<Loop::factors>(c, k),
-        BondMotion<Pack>{d, orientations<Rows>(FirstEnd(ends)), orientations<Rows>(SecondEnd(ends))});
+        BondMotion<Simd>{d, orientations<Rows>(FirstEnd(ends)), orientations<Rows>(SecondEnd(ends))});
   else
     return law.without_rotation(geometry<Loop::factors>(c, k), d);
 }
 
 template <class Loop, class Law>
-PLATEN_INLINE Pack add_pack(const BondColumns &c, const Law &law, std::size_t k, const Ends &ends,
-                            PowerSum &power) {
+PLATEN_INLINE Simd add_lanes(const BondColumns &c, const Law &law, std::size_t k, const Ends &ends,
+                             PowerSum &power) {
   using Rows = typename Loop::Rows;
   if constexpr (Loop::dashpots) {
-    Triple<Pack> d, v;
+    Triple<Simd> d, v;
     part(ends, d, v);
-    const DashpotResponse beside = dashpots_of<Rows>(c, k, ends, d, v, Pack(1.0), power);
-    const BondResponse<Pack> r = respond<Loop>(c, law, k, ends, d);
+    const DashpotResponse beside = dashpots_of<Rows>(c, k, ends, d, v, Simd(1.0), power);
+    const BondResponse<Simd> r = respond<Loop>(c, law, k, ends, d);
     scatter<Rows>(ends, r.force + beside.force, r.torque_i + beside.torque_i, r.torque_j + beside.torque_j);
     return r.excess;
   } else {
-    const BondResponse<Pack> r = respond<Loop>(c, law, k, ends, distances(ends));
+    const BondResponse<Simd> r = respond<Loop>(c, law, k, ends, distances(ends));
     scatter<Rows>(ends, r.force, r.torque_i, r.torque_j);
     return r.excess;
   }
 }
 
 template <class Loop, class Law>
-[[gnu::noinline]] Pack add_tail(const BondColumns &c, const BlockColumns &block, const Law &law,
+[[gnu::noinline]] Simd add_tail(const BondColumns &c, const BlockColumns &block, const Law &law,
                                 std::size_t k, std::size_t last, PowerSum &power) {
   Tail tail(c, k, last);
   const TailEnds ends = tail_ends<typename Loop::Rows>(c, block, k, last);
-  const Pack excess = add_pack<Loop>(tail.columns(c), law, 0, Ends{block.rows, ends.at}, power);
+  const Simd excess = add_lanes<Loop>(tail.columns(c), law, 0, Ends{block.rows, ends.at}, power);
   tail.give_back(c, k, last);
   return excess;
 }
@@ -77,12 +77,12 @@ BlockFindings compute_forces(const BondColumns &c, const BlockColumns &block, co
   gather<Rows>(c, block);
   BlockFindings found;
   PowerSum power;
-  const auto look = [&](std::size_t at, std::size_t end, const Pack &excess) {
-    if (lanes_at_least(excess, Pack(0.0)) != 0) add_reached(found, at, end);
+  const auto look = [&](std::size_t at, std::size_t end, const Simd &excess) {
+    if (lanes_at_least(excess, Simd(0.0)) != 0) add_reached(found, at, end);
   };
   std::size_t k = first;
   for (; k + lanes <= last; k += lanes)
-    look(k, k + lanes, add_pack<Loop>(c, law, k, ends_of(c, block, k), power));
+    look(k, k + lanes, add_lanes<Loop>(c, law, k, ends_of(c, block, k), power));
   if (k < last) look(k, last, add_tail<Loop>(c, block, law, k, last, power));
   scatter<Rows>(block);
   found.dashpot_power = power.sum;
@@ -137,27 +137,27 @@ BlockFindings compute_forces_of(const BondColumns &c, const BlockColumns &block,
 
 // From the particles' columns, for bonds of any block.
 template <Turning turning, bool factors, class Law>
-PLATEN_INLINE BondResponse<Pack> respond(const BondColumns &c, const Law &law, std::size_t k) {
+PLATEN_INLINE BondResponse<Simd> respond(const BondColumns &c, const Law &law, std::size_t k) {
   const int *i = c.first + k, *j = c.second + k;
-  const Triple<Pack> d = gather_difference(c.position, j, i);
+  const Triple<Simd> d = gather_difference(c.position, j, i);
   if constexpr (turning == Turning::none)
     return law.without_rotation(geometry<factors>(c, k), d);
   else
     return law.template turning<turning == Turning::moments>(
-        geometry<factors>(c, k), BondMotion<Pack>{d, gather(c.orientation, i), gather(c.orientation, j)});
+        geometry<factors>(c, k), BondMotion<Simd>{d, gather(c.orientation, i), gather(c.orientation, j)});
 }
 
 template <Turning turning, bool factors, class Law>
 void measure(const BondColumns &c, const Law &law, const BondRowValues &to, std::size_t first,
              std::size_t last) {
-  const auto put = [&](double *column, const Pack &value, std::size_t at, std::size_t count) {
+  const auto put = [&](double *column, const Simd &value, std::size_t at, std::size_t count) {
     if (column == nullptr) return;
     for (std::size_t l = 0; l < count; ++l)
       column[at + l] = value.v[l];
   };
   for (std::size_t k = first; k < last; k += lanes) {
     const std::size_t count = last - k < lanes ? last - k : lanes;
-    BondResponse<Pack> r;
+    BondResponse<Simd> r;
     if (count == lanes) {
       r = respond<turning, factors>(c, law, k);
     } else {

@@ -1,6 +1,6 @@
-// Contacts between grains in packs: which rows have something to do in a step, for most pairs that are near
-// do not touch, and what those do. One source, compiled once per instruction set (contact_kernel.inc.h), to
-// the same last bit.
+// Contacts between grains in SIMD vectors: which rows have something to do in a step, for most pairs that are
+// near do not touch, and what those do. One source, compiled once per instruction set (contact_kernel.inc.h),
+// to the same last bit.
 #pragma once
 
 #include <cstddef>

@@ -23,9 +23,9 @@ PLATEN_INLINE unsigned set_lanes(const int *from) {
 }
 
 PLATEN_INLINE unsigned lanes_at_work(const ContactColumns &c, std::size_t k) {
-  const Triple<Pack> d = gather_difference(c.position, c.second + k, c.first + k);
-  const Pack rest = load(c.rest_distance + k);
-  const Pack square = d.x * d.x + d.y * d.y + d.z * d.z;
+  const Triple<Simd> d = gather_difference(c.position, c.second + k, c.first + k);
+  const Simd rest = load(c.rest_distance + k);
+  const Simd square = d.x * d.x + d.y * d.y + d.z * d.z;
   return (all_lanes & ~lanes_at_least(square, rest * rest)) | set_lanes(c.touching + k);
 }
 
@@ -73,26 +73,26 @@ struct With {
                         dashpots = with_dashpots, rotation = with_rotation, ledger = with_ledger;
 };
 
-PLATEN_INLINE Pack reduced_of(const Pack &a, const Pack &b) {
+PLATEN_INLINE Simd reduced_of(const Simd &a, const Simd &b) {
   return a * b / (a + b);
 }
 
-// A pack of rows that touch. Lanes from `count` on repeat the last of them and are not written.
+// A SIMD vector of rows that touch. Lanes from `count` on repeat the last of them and are not written.
 struct Touch {
   int row[lanes], i[lanes], j[lanes], count;
-  Triple<Pack> n, ri, rj, slip_velocity; // m, m/s
-  Pack pressing, kn, spun;               // N, N/m, rad: of both about n in this step
-  Triple<Pack> force, drag;              // N, on the first; drag: the dashpots' part
+  Triple<Simd> n, ri, rj, slip_velocity; // m, m/s
+  Simd pressing, kn, spun;               // N, N/m, rad: of both about n in this step
+  Triple<Simd> force, drag;              // N, on the first; drag: the dashpots' part
 };
 
 // Of each lane, J: rolling, of a spring that has become softer, sliding; and the dashpots'.
 struct Losses {
-  Pack rolling = Pack(0.0), softened = Pack(0.0), sliding = Pack(0.0), damping = Pack(0.0);
+  Simd rolling = Simd(0.0), softened = Simd(0.0), sliding = Simd(0.0), damping = Simd(0.0);
 };
 
 // A vector in the plane of contact as the last step left it, turned with the plane and with the pair about
 // its normal.
-PLATEN_INLINE Triple<Pack> turned(const ContactColumns &c, const Vector3 *column, const Touch &t) {
+PLATEN_INLINE Triple<Simd> turned(const ContactColumns &c, const Vector3 *column, const Touch &t) {
   return spin_in_plane(carried_with_plane<OfLanes>(gather(column, t.row), gather(c.normal, t.row), t.n), t.n,
                        t.spun);
 }
@@ -100,18 +100,18 @@ PLATEN_INLINE Triple<Pack> turned(const ContactColumns &c, const Vector3 *column
 // The law of friction turns a rolling spring k_t R*^2 with the limit rolling_friction R* N. Before the
 // tangential force, which renews the normal.
 template <class Effects>
-PLATEN_INLINE Triple<Pack> rolling_moment(const ContactColumns &c, const ContactStep &s, const Touch &t,
+PLATEN_INLINE Triple<Simd> rolling_moment(const ContactColumns &c, const ContactStep &s, const Touch &t,
                                           Losses &lost) {
-  const Pack effective = reduced_of(gather(c.radius, t.i), gather(c.radius, t.j));
-  const Pack stiffness = gather(c.tangential_stiffness, t.row) * effective * effective;
+  const Simd effective = reduced_of(gather(c.radius, t.i), gather(c.radius, t.j));
+  const Simd stiffness = gather(c.tangential_stiffness, t.row) * effective * effective;
   scatter(c.rolling_stiffness, t.row, t.count, stiffness);
-  const LaneMask stiff = OfLanes::above(stiffness, Pack(0.0)); // not of Hertz' contact at its first step
-  const Triple<Pack> w = gather_difference(c.angular_velocity, t.j, t.i);
-  const Triple<Pack> stretch = scale(Pack(s.dt), w - scale(dot(w, t.n), t.n));
-  const Pack limit = Pack(s.rolling_friction) * effective, zero = Pack(0.0);
+  const LaneMask stiff = OfLanes::above(stiffness, Simd(0.0)); // not of Hertz' contact at its first step
+  const Triple<Simd> w = gather_difference(c.angular_velocity, t.j, t.i);
+  const Triple<Simd> stretch = scale(Simd(s.dt), w - scale(dot(w, t.n), t.n));
+  const Simd limit = Simd(s.rolling_friction) * effective, zero = Simd(0.0);
   const auto f =
       spring_with_friction<OfLanes>(turned(c, c.rolling, t), stretch, t.pressing, stiffness, limit, limit);
-  const Triple<Pack> moment = choose<OfLanes>(stiff, f.spring, gather(c.rolling, t.row));
+  const Triple<Simd> moment = choose<OfLanes>(stiff, f.spring, gather(c.rolling, t.row));
   lost.rolling = OfLanes::choose(stiff, f.dissipated, zero);
   scatter(c.rolling, t.row, t.count, moment);
   return moment;
@@ -120,27 +120,27 @@ PLATEN_INLINE Triple<Pack> rolling_moment(const ContactColumns &c, const Contact
 // Coulomb's spring in the turned contact plane.
 template <class Effects>
 PLATEN_INLINE void tangential_force(const ContactColumns &c, const ContactStep &s, Touch &t, Losses &lost) {
-  const Pack zero = Pack(0.0), friction = Pack(s.friction), half_step = Pack(0.5 * s.dt);
-  Pack kt = gather(c.tangential_stiffness, t.row);
-  Triple<Pack> spring = turned(c, c.spring, t);
+  const Simd zero = Simd(0.0), friction = Simd(s.friction), half_step = Simd(0.5 * s.dt);
+  Simd kt = gather(c.tangential_stiffness, t.row);
+  Triple<Simd> spring = turned(c, c.spring, t);
   if constexpr (!Effects::Law::constant_stiffness) {
     // A softer spring keeps its stretch, a stiffer one its force: both only lose energy, and the ledger gets
     // it, with what the mean force over the step has done by the part that is gone.
-    const Pack now = Pack(s.tangential_ratio) * t.kn, square = dot(spring, spring);
-    const Triple<Pack> seen = spring;
-    spring = choose<OfLanes>(OfLanes::above(kt, now), scale(Pack(now / kt), spring), spring);
+    const Simd now = Simd(s.tangential_ratio) * t.kn, square = dot(spring, spring);
+    const Triple<Simd> seen = spring;
+    spring = choose<OfLanes>(OfLanes::above(kt, now), scale(Simd(now / kt), spring), spring);
     if constexpr (Effects::ledger) {
       const LaneMask held = OfLanes::above(kt, zero) & OfLanes::above(square, zero);
       // At an overlap of exactly 0 nothing is stiff, and the spring has lost all.
-      const Pack left = OfLanes::choose(OfLanes::above(now, zero), dot(spring, spring) / now, zero);
-      const Pack loss =
-          Pack(0.5) * square / kt - Pack(0.5) * left + half_step * dot(seen - spring, t.slip_velocity);
+      const Simd left = OfLanes::choose(OfLanes::above(now, zero), dot(spring, spring) / now, zero);
+      const Simd loss =
+          Simd(0.5) * square / kt - Simd(0.5) * left + half_step * dot(seen - spring, t.slip_velocity);
       lost.softened = OfLanes::choose(held, loss, zero);
     }
     kt = now;
     scatter(c.tangential_stiffness, t.row, t.count, kt);
   }
-  const auto f = spring_with_friction<OfLanes>(spring, scale(Pack(s.dt), t.slip_velocity), t.pressing, kt,
+  const auto f = spring_with_friction<OfLanes>(spring, scale(Simd(s.dt), t.slip_velocity), t.pressing, kt,
                                                friction, friction);
   lost.sliding = f.dissipated;
   scatter(c.sliding, t.row, t.count, f.slides);
@@ -150,35 +150,35 @@ PLATEN_INLINE void tangential_force(const ContactColumns &c, const ContactStep &
   if constexpr (Effects::dashpots) {
     // Spring and dashpot together stay below the Coulomb limit too; a contact that is not pressed drags
     // nothing.
-    const Pack damping =
-        Pack(2 * s.dashpot) * OfLanes::root(kt * reduced_of(gather(c.mass, t.i), gather(c.mass, t.j)));
-    Triple<Pack> tangential = f.spring + scale(damping, t.slip_velocity);
-    const Pack size = length<OfLanes>(tangential), limit = friction * t.pressing;
+    const Simd damping =
+        Simd(2 * s.dashpot) * OfLanes::root(kt * reduced_of(gather(c.mass, t.i), gather(c.mass, t.j)));
+    Triple<Simd> tangential = f.spring + scale(damping, t.slip_velocity);
+    const Simd size = length<OfLanes>(tangential), limit = friction * t.pressing;
     tangential =
-        choose<OfLanes>(OfLanes::above(size, limit), scale(Pack(limit / size), tangential), tangential);
-    const Triple<Pack> drag = choose<OfLanes>(f.slides, no_vector<Pack>(), tangential - f.spring);
+        choose<OfLanes>(OfLanes::above(size, limit), scale(Simd(limit / size), tangential), tangential);
+    const Triple<Simd> drag = choose<OfLanes>(f.slides, no_vector<Simd>(), tangential - f.spring);
     t.force = t.force + drag;
     t.drag = t.drag + drag;
   }
 }
 
-// Where the pack is and how it moves.
+// Where the SIMD vector is and how it moves.
 template <class Effects>
-PLATEN_INLINE Triple<Pack> approach(const ContactColumns &c, const ContactStep &s, Touch &t) {
-  const Triple<Pack> d = gather_difference(c.position, t.j, t.i);
-  const Pack distance = OfLanes::root(dot(d, d)), radius = gather(c.radius, t.i);
-  const Pack lever = radius / (radius + gather(c.radius, t.j));
+PLATEN_INLINE Triple<Simd> approach(const ContactColumns &c, const ContactStep &s, Touch &t) {
+  const Triple<Simd> d = gather_difference(c.position, t.j, t.i);
+  const Simd distance = OfLanes::root(dot(d, d)), radius = gather(c.radius, t.i);
+  const Simd lever = radius / (radius + gather(c.radius, t.j));
   t.n = {d.x / distance, d.y / distance, d.z / distance};
   t.ri = scale(lever, d), t.rj = t.ri - d;
-  Triple<Pack> v = gather_difference(c.velocity, t.j, t.i);
+  Triple<Simd> v = gather_difference(c.velocity, t.j, t.i);
   if constexpr (Effects::rotation) {
-    const Triple<Pack> wi = gather(c.angular_velocity, t.i), wj = gather(c.angular_velocity, t.j);
+    const Triple<Simd> wi = gather(c.angular_velocity, t.i), wj = gather(c.angular_velocity, t.j);
     v = v + (cross(wj, t.rj) - cross(wi, t.ri));
-    t.spun = Pack(0.5 * s.dt) * dot(wi + wj, t.n);
+    t.spun = Simd(0.5 * s.dt) * dot(wi + wj, t.n);
   } else {
-    t.spun = Pack(0.0);
+    t.spun = Simd(0.0);
   }
-  const Pack overlap = gather(c.rest_distance, t.row) - distance, coefficient = gather(c.coefficient, t.row);
+  const Simd overlap = gather(c.rest_distance, t.row) - distance, coefficient = gather(c.coefficient, t.row);
   for (int l = 0; l < t.count; ++l)
     c.touching[t.row[l]] = 1;
   scatter(c.overlap, t.row, t.count, overlap);
@@ -190,14 +190,14 @@ PLATEN_INLINE Triple<Pack> approach(const ContactColumns &c, const ContactStep &
 // Adds force and torques row by row, in their order.
 template <class Effects>
 PLATEN_INLINE void add_forces(const ContactColumns &c, const ContactBlock &b, const Touch &t,
-                              const Triple<Pack> &moment) {
-  Triple<Pack> on_first = cross(t.ri, t.force), on_second = cross(t.rj, t.force);
-  on_second = Triple<Pack>{-on_second.x, -on_second.y, -on_second.z};
+                              const Triple<Simd> &moment) {
+  Triple<Simd> on_first = cross(t.ri, t.force), on_second = cross(t.rj, t.force);
+  on_second = Triple<Simd>{-on_second.x, -on_second.y, -on_second.z};
   if constexpr (Effects::rolling) on_first = on_first + moment, on_second = on_second - moment;
-  const auto add = [](Vector3 &to, const Triple<Pack> &a, int l) {
+  const auto add = [](Vector3 &to, const Triple<Simd> &a, int l) {
     to.x += a.x.v[l], to.y += a.y.v[l], to.z += a.z.v[l];
   };
-  const auto take = [](Vector3 &from, const Triple<Pack> &a, int l) {
+  const auto take = [](Vector3 &from, const Triple<Simd> &a, int l) {
     from.x -= a.x.v[l], from.y -= a.y.v[l], from.z -= a.z.v[l];
   };
   scatter(c.force, t.row, t.count, t.force);
@@ -213,27 +213,27 @@ PLATEN_INLINE void add_forces(const ContactColumns &c, const ContactBlock &b, co
 }
 
 template <class Effects>
-PLATEN_INLINE Losses add_pack(const ContactColumns &c, const ContactBlock &b, const ContactStep &s,
-                              Touch &t) {
+PLATEN_INLINE Losses add_lanes(const ContactColumns &c, const ContactBlock &b, const ContactStep &s,
+                               Touch &t) {
   Losses lost;
-  const Triple<Pack> v = approach<Effects>(c, s, t);
-  const Pack vn = dot(v, t.n), elastic = t.pressing;
+  const Triple<Simd> v = approach<Effects>(c, s, t);
+  const Simd vn = dot(v, t.n), elastic = t.pressing;
   if constexpr (Effects::dashpots) { // no attraction
-    const Pack held =
+    const Simd held =
         elastic -
-        Pack(2 * s.dashpot) * OfLanes::root(t.kn * reduced_of(gather(c.mass, t.i), gather(c.mass, t.j))) * vn;
-    t.pressing = OfLanes::choose(OfLanes::above(held, Pack(0.0)), held, Pack(0.0));
+        Simd(2 * s.dashpot) * OfLanes::root(t.kn * reduced_of(gather(c.mass, t.i), gather(c.mass, t.j))) * vn;
+    t.pressing = OfLanes::choose(OfLanes::above(held, Simd(0.0)), held, Simd(0.0));
   }
   t.force = scale(-t.pressing, t.n);
-  t.drag = scale(Pack(elastic - t.pressing), t.n);
+  t.drag = scale(Simd(elastic - t.pressing), t.n);
   t.slip_velocity = v - scale(vn, t.n);
-  Triple<Pack> moment = no_vector<Pack>();
+  Triple<Simd> moment = no_vector<Simd>();
   if constexpr (Effects::rolling) moment = rolling_moment<Effects>(c, s, t, lost);
   if constexpr (Effects::friction) tangential_force<Effects>(c, s, t, lost);
   if constexpr (Effects::dashpots) {
     // By the mean of the forces at the two ends of the drift, as the leapfrog sees it.
     if constexpr (Effects::ledger)
-      lost.damping = Pack(0.5 * s.dt) * dot(t.drag + gather(c.dashpot, t.row), v);
+      lost.damping = Simd(0.5 * s.dt) * dot(t.drag + gather(c.dashpot, t.row), v);
     scatter(c.dashpot, t.row, t.count, t.drag);
   }
   add_forces<Effects>(c, b, t, moment);
@@ -274,7 +274,7 @@ ContactLoss compute(const ContactColumns &c, const ContactBlock &b, const Contac
       t.row[l] = t.row[t.count - 1];
     for (int l = 0; l < lanes; ++l)
       t.i[l] = c.first[t.row[l]], t.j[l] = c.second[t.row[l]];
-    const Losses of = add_pack<Effects>(c, b, s, t);
+    const Losses of = add_lanes<Effects>(c, b, s, t);
     for (int l = 0; Effects::ledger && l < t.count; ++l) {
       double *to = losses + 3 * at[l];
       to[0] = of.rolling.v[l], to[1] = of.softened.v[l], to[2] = of.sliding.v[l];

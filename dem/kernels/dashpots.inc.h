@@ -9,7 +9,7 @@ namespace {
 // One by one in row order, so that rows that have no dashpot any more may be dropped without a change.
 struct PowerSum {
   double sum = 0; // W
-  PLATEN_INLINE void add(const Pack &power) {
+  PLATEN_INLINE void add(const Simd &power) {
     for (int l = 0; l < lanes; ++l)
       sum += power.v[l];
   }
@@ -17,15 +17,15 @@ struct PowerSum {
 
 // On the first particles, N and N m; torques with rotation alone.
 struct DashpotResponse {
-  Triple<Pack> force, torque_i, torque_j;
+  Triple<Simd> force, torque_i, torque_j;
 };
 
-PLATEN_INLINE void add_dashpot_moments(const BondColumns &c, std::size_t k, const Pack &acts,
-                                       const Triple<Pack> &spin, const Triple<Pack> &along, Pack &power,
+PLATEN_INLINE void add_dashpot_moments(const BondColumns &c, std::size_t k, const Simd &acts,
+                                       const Triple<Simd> &spin, const Triple<Simd> &along, Simd &power,
                                        DashpotResponse &r) {
-  const Pack bending = acts * load(c.dashpot_bending + k);
-  const Triple<Pack> moment =
-      scale(bending, spin) + scale(Pack((c.dashpot_twist_ratio - 1.0) * bending), along);
+  const Simd bending = acts * load(c.dashpot_bending + k);
+  const Triple<Simd> moment =
+      scale(bending, spin) + scale(Simd((c.dashpot_twist_ratio - 1.0) * bending), along);
   r.torque_i = r.torque_i + moment;
   r.torque_j = r.torque_j - moment;
   power = power + dot(moment + load(c.dashpot_moment + k), spin);
@@ -36,39 +36,40 @@ PLATEN_INLINE void add_dashpot_moments(const BondColumns &c, std::size_t k, cons
 // from the first centre (docs/theory.md). `acts`: 1, or 0 of bonds that have just failed.
 template <class Rows>
 PLATEN_INLINE DashpotResponse dashpots_of(const BondColumns &c, std::size_t k, const Ends &ends,
-                                          const Triple<Pack> &d, Triple<Pack> v, const Pack &acts,
+                                          const Triple<Simd> &d, Triple<Simd> v, const Simd &acts,
                                           PowerSum &power) {
-  const Pack lever = load(c.lever + k), axial = acts * load(c.dashpot + k);
-  Triple<Pack> spin;
+  const Simd lever = load(c.lever + k), axial = acts * load(c.dashpot + k);
+  Triple<Simd> spin;
   if constexpr (Rows::rotation) {
-    const Triple<Pack> wi = spins<Rows>(FirstEnd(ends)), wj = spins<Rows>(SecondEnd(ends));
-    v = v + cross(d, scale(lever, wi) + scale(Pack(1.0 - lever), wj));
+    const Triple<Simd> wi = spins<Rows>(FirstEnd(ends)), wj = spins<Rows>(SecondEnd(ends));
+    v = v + cross(d, scale(lever, wi) + scale(Simd(1.0 - lever), wj));
     spin = wj - wi;
   }
-  const Pack per_square = 1.0 / dot(d, d), across = c.dashpot_shear_ratio * axial;
+  const Simd per_square = 1.0 / dot(d, d), across = c.dashpot_shear_ratio * axial;
   DashpotResponse r;
-  r.force = scale(across, v) + scale(Pack((axial - across) * (dot(v, d) * per_square)), d);
-  Pack taken = dot(r.force + load(c.dashpot_force + k), v);
+  r.force = scale(across, v) + scale(Simd((axial - across) * (dot(v, d) * per_square)), d);
+  Simd taken = dot(r.force + load(c.dashpot_force + k), v);
   store(c.dashpot_force + k, r.force);
   if constexpr (Rows::rotation) {
-    const Triple<Pack> moment = cross(d, r.force);
+    const Triple<Simd> moment = cross(d, r.force);
     r.torque_i = scale(lever, moment);
     r.torque_j = moment - r.torque_i;
     if (c.dashpot_moment != nullptr)
-      add_dashpot_moments(c, k, acts, spin, scale(Pack(dot(spin, d) * per_square), d), taken, r);
+      add_dashpot_moments(c, k, acts, spin, scale(Simd(dot(spin, d) * per_square), d), taken, r);
   }
   power.add(taken);
   return r;
 }
 
-// The same by themselves, of packs of which some may have failed in this step: `failed` is positive there.
+// The same by themselves, of SIMD vectors of which some may have failed in this step: `failed` is positive
+// there.
 template <class Rows>
 [[gnu::noinline]] void add_dashpots_apart(const BondColumns &c, std::size_t k, const Ends &ends,
-                                          const Pack &failed, PowerSum &power) {
-  Triple<Pack> d, v;
+                                          const Simd &failed, PowerSum &power) {
+  Triple<Simd> d, v;
   part(ends, d, v);
   const DashpotResponse r =
-      dashpots_of<Rows>(c, k, ends, d, v, where_positive(failed, Pack(0.0), Pack(1.0)), power);
+      dashpots_of<Rows>(c, k, ends, d, v, where_positive(failed, Simd(0.0), Simd(1.0)), power);
   scatter<Rows>(ends, r.force, r.torque_i, r.torque_j);
 }
 

@@ -1,4 +1,5 @@
-// What contacts in packs have in common: rows by their numbers, and springs that turn with their planes.
+// What contacts in SIMD vectors have in common: rows by their numbers, and springs that turn with their
+// planes.
 #pragma once
 
 #include <cmath>
@@ -12,8 +13,8 @@
 namespace platen::dem::kernels {
 namespace {
 
-PLATEN_INLINE Pack gather(const double *column, const int *at) {
-  Pack a;
+PLATEN_INLINE Simd gather(const double *column, const int *at) {
+  Simd a;
   for (int l = 0; l < lanes; ++l)
     a.v[l] = column[at[l]];
   return a;
@@ -26,7 +27,7 @@ PLATEN_INLINE LaneMask set_lanes_of(const int *from) {
   return {__builtin_convertvector(numbers, LaneMask::Bits) != 0};
 }
 // Lanes [0, count) to the rows `at`.
-PLATEN_INLINE void scatter(double *column, const int *at, int count, const Pack &a) {
+PLATEN_INLINE void scatter(double *column, const int *at, int count, const Simd &a) {
   for (int l = 0; l < count; ++l)
     column[at[l]] = a.v[l];
 }
@@ -34,18 +35,18 @@ PLATEN_INLINE void scatter(int *column, const int *at, int count, const LaneMask
   for (int l = 0; l < count; ++l)
     column[at[l]] = a.v[l] != 0 ? 1 : 0;
 }
-PLATEN_INLINE void scatter(Vector3 *column, const int *at, int count, const Triple<Pack> &a) {
+PLATEN_INLINE void scatter(Vector3 *column, const int *at, int count, const Triple<Simd> &a) {
   for (int l = 0; l < count; ++l)
     column[at[l]] = Vector3{a.x.v[l], a.y.v[l], a.z.v[l]};
 }
 
 // About the unit normal by any angle (rad), exact.
-PLATEN_INLINE Triple<Pack> spin_in_plane(const Triple<Pack> &vector, const Triple<Pack> &normal,
-                                         const Pack &angle) {
-  const Triple<Pack> little = spun_a_little<OfLanes>(vector, normal, angle);
-  const LaneMask far = OfLanes::at_least(OfLanes::magnitude(angle), Pack(spin_of_a_step));
+PLATEN_INLINE Triple<Simd> spin_in_plane(const Triple<Simd> &vector, const Triple<Simd> &normal,
+                                         const Simd &angle) {
+  const Triple<Simd> little = spun_a_little<OfLanes>(vector, normal, angle);
+  const LaneMask far = OfLanes::at_least(OfLanes::magnitude(angle), Simd(spin_of_a_step));
   if (!OfLanes::any(far)) return little;
-  Pack cosine, sine;
+  Simd cosine, sine;
   for (int l = 0; l < lanes; ++l)
     cosine.v[l] = portable::cos(angle.v[l]), sine.v[l] = portable::sin(angle.v[l]);
   return choose<OfLanes>(far, scale(cosine, vector) + scale(sine, cross(normal, vector)), little);

@@ -1,7 +1,7 @@
-// Truth lane by lane, for kernels whose lanes go different ways; beside pack.inc.h.
+// Truth lane by lane, for kernels whose lanes go different ways; beside SIMD vector.inc.h.
 #pragma once
 
-#include "dem/kernels/pack.inc.h"
+#include "dem/kernels/simd.inc.h"
 
 namespace platen::dem::kernels {
 namespace {
@@ -33,18 +33,18 @@ PLATEN_INLINE unsigned bits_of(const LaneMask &a) {
 #endif
 }
 
-// What a text for one number and for packs asks of its type (dem/laws/lanes.h).
+// What a text for one number and for SIMD vectors asks of its type (dem/laws/lanes.h).
 struct OfLanes {
-  PLATEN_INLINE static LaneMask above(const Pack &a, const Pack &b) { return {a.v > b.v}; }
-  PLATEN_INLINE static LaneMask at_least(const Pack &a, const Pack &b) { return {a.v >= b.v}; }
+  PLATEN_INLINE static LaneMask above(const Simd &a, const Simd &b) { return {a.v > b.v}; }
+  PLATEN_INLINE static LaneMask at_least(const Simd &a, const Simd &b) { return {a.v >= b.v}; }
   PLATEN_INLINE static LaneMask negated(const LaneMask &a) { return {~a.v}; }
   PLATEN_INLINE static bool any(const LaneMask &a) { return bits_of(a) != 0; }
-  PLATEN_INLINE static Pack choose(const LaneMask &where, const Pack &a, const Pack &b) {
+  PLATEN_INLINE static Simd choose(const LaneMask &where, const Simd &a, const Simd &b) {
     return where.v ? a.v : b.v;
   }
-  PLATEN_INLINE static Pack root(const Pack &a) { return kernels::root(a); }
-  PLATEN_INLINE static Pack magnitude(const Pack &a) { return kernels::magnitude(a); }
-  PLATEN_INLINE static Pack with_sign(const Pack &size, const Pack &of) {
+  PLATEN_INLINE static Simd root(const Simd &a) { return kernels::root(a); }
+  PLATEN_INLINE static Simd magnitude(const Simd &a) { return kernels::magnitude(a); }
+  PLATEN_INLINE static Simd with_sign(const Simd &size, const Simd &of) {
     return kernels::with_sign(size, of);
   }
 };

@@ -2,14 +2,14 @@
 // contraction, and sums are kept by row number modulo `slots`, so that every instruction set gives the same
 // bits.
 #include "dem/kernels/motion_kernel.h"
-#include "dem/kernels/pack.inc.h"
+#include "dem/kernels/simd.inc.h"
 
 namespace platen::dem::kernels {
 namespace {
 
 constexpr std::size_t slots = 8;
 
-// One row at a time, for those that do not fill a pack.
+// One row at a time, for those that do not fill a SIMD vector.
 inline Triple<double> load_one(const Vector3 *from) {
   return {from->x, from->y, from->z};
 }
@@ -22,10 +22,10 @@ inline void store(Quaternion *to, const Rotation<double> &q) {
 template <class Real>
 struct Rows;
 template <>
-struct Rows<Pack> {
-  static Pack scalar(const double *from) { return load(from); }
-  static Triple<Pack> vector(const Vector3 *from) { return load(from); }
-  static Rotation<Pack> rotation(const Quaternion *from) { return load(from); }
+struct Rows<Simd> {
+  static Simd scalar(const double *from) { return load(from); }
+  static Triple<Simd> vector(const Vector3 *from) { return load(from); }
+  static Rotation<Simd> rotation(const Quaternion *from) { return load(from); }
 };
 template <>
 struct Rows<double> {
@@ -154,15 +154,15 @@ inline void move(const MotionColumns &c, const MotionStep &step, std::size_t i, 
 
 template <bool rotation, bool dissipative, Halves halves>
 MotionSums move_block(MotionColumns c, MotionStep step, std::size_t first, std::size_t last) {
-  constexpr std::size_t packs = slots / lanes;
-  PartialSums<Pack> wide[packs];
+  constexpr std::size_t wide_rows = slots / lanes;
+  PartialSums<Simd> wide[wide_rows];
   std::size_t i = first;
   for (; i + slots <= last; i += slots)
-    for (std::size_t p = 0; p < packs; ++p)
-      move<Pack, rotation, dissipative, halves>(c, step, i + p * lanes, wide[p]);
+    for (std::size_t p = 0; p < wide_rows; ++p)
+      move<Simd, rotation, dissipative, halves>(c, step, i + p * lanes, wide[p]);
   PartialSums<double> slot[slots];
   for (std::size_t s = 0; s < slots; ++s) {
-    const PartialSums<Pack> &w = wide[s / lanes];
+    const PartialSums<Simd> &w = wide[s / lanes];
     const std::size_t l = s % lanes;
     slot[s] = {w.damping_work.v[l],   w.weight_work.v[l],   w.unbalanced.v[l],
                w.kinetic_energy.v[l], w.speed_squares.v[l], w.fastest_square.v[l]};

@@ -1,6 +1,6 @@
 // Body of the search kernel; the including file sets the name PLATEN_FIND_NEAR. Runs along a row of cells are
 // short: with vectors most are one vector of eight. Compiled without contraction: every instruction set finds
-// the same. Everything else stays in an unnamed namespace (pack.inc.h says why).
+// the same. Everything else stays in an unnamed namespace (SIMD vector.inc.h says why).
 #include "dem/kernels/near_kernel.h"
 
 #if defined(__AVX2__)

@@ -1,5 +1,5 @@
-// Rows of four doubles for packs of eight lanes: two rows stand in one vector, so that transpositions and
-// sums take half the instructions of rows one by one (pack.inc.h).
+// Rows of four doubles for SIMD vectors of eight lanes: two rows stand in one vector, so that transpositions
+// and sums take half the instructions of rows one by one (SIMD vector.inc.h).
 #pragma once
 
 namespace platen::dem::kernels {
@@ -48,12 +48,12 @@ PLATEN_INLINE Native odd(const Native &a, const Native &b) {
 
 // Rows of four doubles become columns of eight. Two rows stand in one vector: 0 beside 2, 1 beside 3, 4
 // beside 6, 5 beside 7.
-PLATEN_INLINE Rotation<Pack> to_columns(const Native &r02, const Native &r13, const Native &r46,
+PLATEN_INLINE Rotation<Simd> to_columns(const Native &r02, const Native &r13, const Native &r46,
                                         const Native &r57) {
   const Native a = even(r02, r13), b = odd(r02, r13), c = even(r46, r57), d = odd(r46, r57);
   return {odd_twos(a, c), odd_twos(b, d), even_twos(a, c), even_twos(b, d)};
 }
-PLATEN_INLINE Rotation<Pack> to_columns(const Row *rows) {
+PLATEN_INLINE Rotation<Simd> to_columns(const Row *rows) {
   return to_columns(join(rows[0], rows[2]), join(rows[1], rows[3]), join(rows[4], rows[6]),
                     join(rows[5], rows[7]));
 }
@@ -63,14 +63,14 @@ PLATEN_INLINE Rotation<Pack> to_columns(const Row *rows) {
 struct RowTwos {
   Native of[4];
 };
-PLATEN_INLINE RowTwos to_twos(const Rotation<Pack> &t) {
+PLATEN_INLINE RowTwos to_twos(const Rotation<Simd> &t) {
   const Native a = even(t.w.v, t.x.v), b = odd(t.w.v, t.x.v);
   const Native c = even(t.y.v, t.z.v), d = odd(t.y.v, t.z.v);
   return {odd_twos(a, c), odd_twos(b, d), even_twos(a, c), even_twos(b, d)};
 }
 // Rows {x, y, z, any}.
-PLATEN_INLINE RowTwos to_twos(const Triple<Pack> &t) {
-  return to_twos(Rotation<Pack>{t.x, t.y, t.z, t.z});
+PLATEN_INLINE RowTwos to_twos(const Triple<Simd> &t) {
+  return to_twos(Rotation<Simd>{t.x, t.y, t.z, t.z});
 }
 // Row l of the first beside row l of the second, or rows l + 4.
 PLATEN_INLINE Native rows_of_first(const RowTwos &a, const RowTwos &b, int l) {
@@ -85,22 +85,22 @@ typedef Native LongRow;
 PLATEN_INLINE LongRow load_long_row(const double *from) {
   return load_native(from);
 }
-PLATEN_INLINE Rotation<Pack> first_columns(const LongRow *rows) {
+PLATEN_INLINE Rotation<Simd> first_columns(const LongRow *rows) {
   return to_columns(lower(rows[0], rows[2]), lower(rows[1], rows[3]), lower(rows[4], rows[6]),
                     lower(rows[5], rows[7]));
 }
-PLATEN_INLINE Rotation<Pack> second_columns(const LongRow *rows) {
+PLATEN_INLINE Rotation<Simd> second_columns(const LongRow *rows) {
   return to_columns(upper(rows[0], rows[2]), upper(rows[1], rows[3]), upper(rows[4], rows[6]),
                     upper(rows[5], rows[7]));
 }
 
 // One column of eight rows that follow each other.
-PLATEN_INLINE Pack load(const double *from) {
+PLATEN_INLINE Simd load(const double *from) {
   return load_native(from);
 }
 
 // Eight vectors that follow each other in memory: x0 y0 z0 x1 y1 z1 x2 y2, z2 x3 ... x5, y5 z5 ... z7.
-PLATEN_INLINE Triple<Pack> load(const Vector3 *from) {
+PLATEN_INLINE Triple<Simd> load(const Vector3 *from) {
   const double *at = &from->x;
   const Native a = load_native(at), b = load_native(at + 8), c = load_native(at + 16);
   const Native x = __builtin_shufflevector(a, b, 0, 3, 6, 9, 12, 15, 0, 0);
@@ -110,7 +110,7 @@ PLATEN_INLINE Triple<Pack> load(const Vector3 *from) {
           Native(__builtin_shufflevector(y, c, 0, 1, 2, 3, 4, 8, 11, 14)),
           Native(__builtin_shufflevector(z, c, 0, 1, 2, 3, 4, 9, 12, 15))};
 }
-PLATEN_INLINE void store(Vector3 *to, const Triple<Pack> &t) {
+PLATEN_INLINE void store(Vector3 *to, const Triple<Simd> &t) {
   const Native &x = t.x.v, &y = t.y.v, &z = t.z.v;
   const Native a = __builtin_shufflevector(x, y, 0, 8, 0, 1, 9, 0, 2, 10);
   const Native b = __builtin_shufflevector(x, y, 0, 3, 11, 0, 4, 12, 0, 5);
@@ -120,7 +120,7 @@ PLATEN_INLINE void store(Vector3 *to, const Triple<Pack> &t) {
   store_native(at + 8, __builtin_shufflevector(b, z, 10, 1, 2, 11, 4, 5, 12, 7));
   store_native(at + 16, __builtin_shufflevector(c, z, 0, 13, 2, 3, 14, 5, 6, 15));
 }
-PLATEN_INLINE void store(Quaternion *to, const Rotation<Pack> &q) {
+PLATEN_INLINE void store(Quaternion *to, const Rotation<Simd> &q) {
   const RowTwos twos = to_twos(q);
   for (int h = 0; h < 4; h += 2) {
     store_native(&to[h].w, odd_twos(twos.of[h], twos.of[h + 1]));
@@ -128,7 +128,7 @@ PLATEN_INLINE void store(Quaternion *to, const Rotation<Pack> &q) {
   }
 }
 
-PLATEN_INLINE void to_rows(const Rotation<Pack> &q, Row *rows) {
+PLATEN_INLINE void to_rows(const Rotation<Simd> &q, Row *rows) {
   const RowTwos twos = to_twos(q);
   for (int h = 0; h < 4; ++h) {
     rows[h] = __builtin_shufflevector(twos.of[h], twos.of[h], 0, 1, 4, 5);
@@ -136,8 +136,8 @@ PLATEN_INLINE void to_rows(const Rotation<Pack> &q, Row *rows) {
   }
 }
 // Lanes as rows {x, y, z, any}.
-PLATEN_INLINE void to_rows(const Triple<Pack> &t, Row *rows) {
-  to_rows(Rotation<Pack>{t.x, t.y, t.z, t.z}, rows);
+PLATEN_INLINE void to_rows(const Triple<Simd> &t, Row *rows) {
+  to_rows(Rotation<Simd>{t.x, t.y, t.z, t.z}, rows);
 }
 
 } // namespace

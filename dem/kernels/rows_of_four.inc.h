@@ -1,4 +1,4 @@
-// Rows of four doubles as one vector each, for packs of four lanes (pack.inc.h).
+// Rows of four doubles as one vector each, for SIMD vectors of four lanes (SIMD vector.inc.h).
 #pragma once
 
 namespace platen::dem::kernels {
@@ -27,12 +27,12 @@ PLATEN_INLINE void transpose(const Row *in, Row *out) {
 }
 
 // One column of four rows that follow each other.
-PLATEN_INLINE Pack load(const double *from) {
+PLATEN_INLINE Simd load(const double *from) {
   return load_row(from);
 }
 
 // Four vectors that follow each other in memory.
-PLATEN_INLINE Triple<Pack> load(const Vector3 *from) {
+PLATEN_INLINE Triple<Simd> load(const Vector3 *from) {
   const double *at = &from->x;
   const Row a = load_row(at), b = load_row(at + 4), c = load_row(at + 8);
   const Row p = __builtin_shufflevector(a, b, 0, 1, 6, 7); // x0 y0 x2 y2
@@ -41,7 +41,7 @@ PLATEN_INLINE Triple<Pack> load(const Vector3 *from) {
   return {Row(__builtin_shufflevector(p, q, 0, 5, 2, 7)), Row(__builtin_shufflevector(p, r, 1, 4, 3, 6)),
           Row(__builtin_shufflevector(q, r, 0, 5, 2, 7))};
 }
-PLATEN_INLINE void store(Vector3 *to, const Triple<Pack> &t) {
+PLATEN_INLINE void store(Vector3 *to, const Triple<Simd> &t) {
   const Row &x = t.x.v, &y = t.y.v, &z = t.z.v;
   const Row p = __builtin_shufflevector(x, y, 0, 4, 2, 6); // x0 y0 x2 y2
   const Row q = __builtin_shufflevector(z, x, 0, 5, 2, 7); // z0 x1 z2 x3
@@ -51,7 +51,7 @@ PLATEN_INLINE void store(Vector3 *to, const Triple<Pack> &t) {
   store_row(at + 4, __builtin_shufflevector(r, p, 0, 1, 6, 7));
   store_row(at + 8, __builtin_shufflevector(q, r, 2, 3, 6, 7));
 }
-PLATEN_INLINE void store(Quaternion *to, const Rotation<Pack> &q) {
+PLATEN_INLINE void store(Quaternion *to, const Rotation<Simd> &q) {
   const Row columns[4] = {q.w.v, q.x.v, q.y.v, q.z.v};
   Row rows[4];
   transpose(columns, rows);
@@ -59,18 +59,18 @@ PLATEN_INLINE void store(Quaternion *to, const Rotation<Pack> &q) {
     store_row(&to[l].w, rows[l]);
 }
 
-PLATEN_INLINE Rotation<Pack> to_columns(const Row *rows) {
+PLATEN_INLINE Rotation<Simd> to_columns(const Row *rows) {
   Row columns[4];
   transpose(rows, columns);
   return {columns[0], columns[1], columns[2], columns[3]};
 }
 
-PLATEN_INLINE void to_rows(const Rotation<Pack> &q, Row *rows) {
+PLATEN_INLINE void to_rows(const Rotation<Simd> &q, Row *rows) {
   const Row columns[4] = {q.w.v, q.x.v, q.y.v, q.z.v};
   transpose(columns, rows);
 }
 // Lanes as rows {x, y, z, any}.
-PLATEN_INLINE void to_rows(const Triple<Pack> &t, Row *rows) {
+PLATEN_INLINE void to_rows(const Triple<Simd> &t, Row *rows) {
   const Row columns[4] = {t.x.v, t.y.v, t.z.v, t.z.v};
   transpose(columns, rows);
 }

@@ -1,5 +1,5 @@
-// Rows of four doubles as two vectors each, for packs of two lanes: plain x86-64, whose registers hold two
-// doubles (pack.inc.h).
+// Rows of four doubles as two vectors each, for SIMD vectors of two lanes: plain x86-64, whose registers hold
+// two doubles (SIMD vector.inc.h).
 #pragma once
 
 namespace platen::dem::kernels {
@@ -44,39 +44,39 @@ PLATEN_INLINE void store_row(double *to, const Row &a) {
 }
 
 // One column of two rows that follow each other.
-PLATEN_INLINE Pack load(const double *from) {
+PLATEN_INLINE Simd load(const double *from) {
   return load_two(from);
 }
 
 // Two vectors that follow each other in memory.
-PLATEN_INLINE Triple<Pack> load(const Vector3 *from) {
+PLATEN_INLINE Triple<Simd> load(const Vector3 *from) {
   const double *at = &from->x;
   const Native a = load_two(at), b = load_two(at + 2), c = load_two(at + 4); // x0 y0, z0 x1, y1 z1
   return {ends_of(a, b), middle_of(a, c), ends_of(b, c)};
 }
-PLATEN_INLINE void store(Vector3 *to, const Triple<Pack> &t) {
+PLATEN_INLINE void store(Vector3 *to, const Triple<Simd> &t) {
   double *at = &to->x;
   store_two(at, first_of(t.x.v, t.y.v));
   store_two(at + 2, ends_of(t.z.v, t.x.v));
   store_two(at + 4, second_of(t.y.v, t.z.v));
 }
 
-PLATEN_INLINE Rotation<Pack> to_columns(const Row *rows) {
+PLATEN_INLINE Rotation<Simd> to_columns(const Row *rows) {
   const Row &a = rows[0], &b = rows[1];
   return {first_of(a.low, b.low), second_of(a.low, b.low), first_of(a.high, b.high),
           second_of(a.high, b.high)};
 }
-PLATEN_INLINE void store(Quaternion *to, const Rotation<Pack> &q) {
+PLATEN_INLINE void store(Quaternion *to, const Rotation<Simd> &q) {
   store_row(&to[0].w, {first_of(q.w.v, q.x.v), first_of(q.y.v, q.z.v)});
   store_row(&to[1].w, {second_of(q.w.v, q.x.v), second_of(q.y.v, q.z.v)});
 }
 
-PLATEN_INLINE void to_rows(const Rotation<Pack> &q, Row *rows) {
+PLATEN_INLINE void to_rows(const Rotation<Simd> &q, Row *rows) {
   rows[0] = {first_of(q.w.v, q.x.v), first_of(q.y.v, q.z.v)};
   rows[1] = {second_of(q.w.v, q.x.v), second_of(q.y.v, q.z.v)};
 }
 // Lanes as rows {x, y, z, any}.
-PLATEN_INLINE void to_rows(const Triple<Pack> &t, Row *rows) {
+PLATEN_INLINE void to_rows(const Triple<Simd> &t, Row *rows) {
   rows[0] = {first_of(t.x.v, t.y.v), first_of(t.z.v, t.z.v)};
   rows[1] = {second_of(t.x.v, t.y.v), second_of(t.z.v, t.z.v)};
 }

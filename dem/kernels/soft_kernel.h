@@ -11,15 +11,15 @@
 
 namespace platen::dem::kernels {
 
-// Spheres of a block are taken in packs of so many, whatever the instruction set.
-constexpr std::size_t soft_pack = 16;
+// Spheres of a block are taken in groups of so many, whatever the instruction set.
+constexpr std::size_t soft_group = 16;
 
 struct alignas(16) SoftRow { // read as a vector of four
   float x = 0, y = 0, z = 0;
   float w = 0;
 };
 
-// Rows fill whole packs; those left over have a radius and no partners.
+// Rows fill whole groups; those left over have a radius and no partners.
 struct SoftColumns {
   SoftRow *way;           // since the lists were made; w: the radius
   SoftRow *velocity;      // w: 0
@@ -27,11 +27,11 @@ struct SoftColumns {
   const SoftRow *outside; // what acts on a sphere beside its partners; w: 0
 };
 
-// Who may touch whom in one block: soft_pack numbers a pack or a step, lane by lane.
+// Who may touch whom in one block: soft_group numbers a group or a step, lane by lane.
 struct SoftLists {
-  std::size_t packs;
-  const int *row;          // the spheres of each pack
-  const int *steps;        // of each pack: the most partners that one of its spheres has
+  std::size_t groups;
+  const int *row;          // the spheres of each group
+  const int *steps;        // of each group: the most partners that one of its spheres has
   const unsigned *partner; // of each step: the row whose way the partner goes, in bytes from the first
   // Of each step: from the sphere to its partner when the lists were made, x, y and z, and the square of this
   // distance less that of the sum of radii. Lanes that have no partner left hold their own row, no distance
@@ -56,7 +56,7 @@ using SoftForces = SoftSums (*)(SoftColumns, SoftLists, float);
 struct SoftMove {
   float step = 0, mixing = 0, along = 0;
 };
-// Returns the largest squared speed of rows [first, last), whole packs.
+// Returns the largest squared speed of rows [first, last), whole groups.
 float move_soft_baseline(SoftColumns, SoftMove, std::size_t first, std::size_t last);
 float move_soft_avx2(SoftColumns, SoftMove, std::size_t first, std::size_t last);
 float move_soft_avx512(SoftColumns, SoftMove, std::size_t first, std::size_t last);

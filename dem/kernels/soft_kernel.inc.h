@@ -1,12 +1,12 @@
 // Bodies of the kernels of soft spheres; the including file sets PLATEN_LANES (4, 8 or 16 floats) and the
-// names. Compiled without contraction, and sums are kept lane by lane of a whole pack: every instruction set
-// gives the same columns and sums. Everything stays in an unnamed namespace (pack.inc.h says why).
+// names. Compiled without contraction, and sums are kept lane by lane of a whole group: every instruction set
+// gives the same columns and sums. Everything stays in an unnamed namespace (group.inc.h says why).
 #include "dem/kernels/soft_kernel.h"
 
 namespace platen::dem::kernels {
 namespace {
 
-constexpr int lanes = PLATEN_LANES, quads = lanes / 4, parts = static_cast<int>(soft_pack) / lanes;
+constexpr int lanes = PLATEN_LANES, quads = lanes / 4, parts = static_cast<int>(soft_group) / lanes;
 typedef float Floats __attribute__((vector_size(4 * PLATEN_LANES)));
 typedef float FloatsInMemory __attribute__((vector_size(4 * PLATEN_LANES), aligned(4), may_alias));
 typedef float Quad __attribute__((vector_size(16)));
@@ -44,7 +44,7 @@ inline Floats root(const Floats &a) {
   return r;
 }
 
-// Rows k, k + 4, ... of a pack as one vector, and one of them again.
+// Rows k, k + 4, ... of a group as one vector, and one of them again.
 template <class Place>
 PLATEN_SOFT_INLINE Floats join(const SoftRow *column, const Place *at) {
 #if PLATEN_LANES == 4
@@ -111,19 +111,19 @@ struct LaneSums {
 
 // With u the way of the partner less the own, and the vector d apart: |d + u|^2 = |d|^2 + (d + (d + u)) . u.
 // The overlap is the difference of the squares of reach and distance over their sum.
-inline void add_forces(const SoftColumns &c, const SoftLists &lists, std::size_t pack,
+inline void add_forces(const SoftColumns &c, const SoftLists &lists, std::size_t group,
                        const unsigned *partner, const float *apart, float step, int p, LaneSums &sums) {
-  const int *row = lists.row + soft_pack * pack + static_cast<std::size_t>(lanes * p);
+  const int *row = lists.row + soft_group * group + static_cast<std::size_t>(lanes * p);
   const Columns own = gather(c.way, row), velocity = gather(c.velocity, row);
   Columns force = gather(c.outside, row);
   Floats overlaps{}, contacts{};
-  for (int k = 0; k < lists.steps[pack]; ++k, partner += soft_pack, apart += 4 * soft_pack) {
+  for (int k = 0; k < lists.steps[group]; ++k, partner += soft_group, apart += 4 * soft_group) {
     const Columns other = gather(c.way, partner);
-    const Columns d{load(apart), load(apart + soft_pack), load(apart + 2 * soft_pack), {}};
+    const Columns d{load(apart), load(apart + soft_group), load(apart + 2 * soft_group), {}};
     const Columns u{other.x - own.x, other.y - own.y, other.z - own.z, {}};
     const Columns now{d.x + u.x, d.y + u.y, d.z + u.z, {}};
     const Columns both{d.x + now.x, d.y + now.y, d.z + now.z, {}};
-    const Floats outside = load(apart + 3 * soft_pack) + product(both, u);
+    const Floats outside = load(apart + 3 * soft_group) + product(both, u);
     const Floats distance = root(product(now, now));
     const Floats inside = outside < 0.0F ? -outside : Floats{};
     const Floats weight = inside / ((own.w + other.w + distance) * (distance + tiny));
@@ -145,10 +145,10 @@ SoftSums PLATEN_SOFT_FORCES(SoftColumns c, SoftLists lists, float step) {
   LaneSums sums;
   const unsigned *partner = lists.partner;
   const float *apart = lists.apart;
-  for (std::size_t pack = 0; pack < lists.packs; ++pack) {
+  for (std::size_t group = 0; group < lists.groups; ++group) {
     for (int p = 0; p < parts; ++p)
-      add_forces(c, lists, pack, partner + lanes * p, apart + lanes * p, step, p, sums);
-    const std::size_t entries = soft_pack * static_cast<std::size_t>(lists.steps[pack]);
+      add_forces(c, lists, group, partner + lanes * p, apart + lanes * p, step, p, sums);
+    const std::size_t entries = soft_group * static_cast<std::size_t>(lists.steps[group]);
     partner += entries, apart += 4 * entries;
   }
   return {sum_of(sums.overlap), sum_of(sums.contacts), sum_of(sums.push), sum_of(sums.speed),

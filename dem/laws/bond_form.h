@@ -26,7 +26,7 @@ namespace platen::dem {
 #define PLATEN_INLINE inline
 #endif
 
-// What a law asks of its real type beyond arithmetic; packs bring their own.
+// What a law asks of its real type beyond arithmetic; SIMD vectors bring their own.
 inline double root(double a) {
   return std::sqrt(a);
 }
@@ -43,15 +43,15 @@ inline double larger(double a, double b) {
 inline double where_positive(double x, double a, double b) {
   return x > 0.0 ? a : b;
 }
-// Of a pack: of any of its lanes.
+// Of a SIMD vector: of any of its lanes.
 inline bool any_positive(double a) {
   return a > 0.0;
 }
-// Of a pack: of every lane.
+// Of a SIMD vector: of every lane.
 inline bool all_positive(double a) {
   return a > 0.0;
 }
-// Vector of any real type: double, or a pack of doubles in the vectorised kernels.
+// Vector of any real type: double, or a SIMD vector of doubles in the vectorised kernels.
 template <class Real>
 struct Triple {
   Real x, y, z;

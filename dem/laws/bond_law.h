@@ -3,8 +3,8 @@
 #pragma once
 
 #include "dem/laws/cohesive_beam.h"
+#include "dem/laws/cohesive_moments.h"
 #include "dem/laws/elasto_damage_plastic.h"
-#include "dem/laws/interface_moments.h"
 #include "dem/laws/law_list.h"
 #include "dem/laws/outside_law.h"
 #include "dem/laws/parallel_bond.h"
@@ -52,7 +52,7 @@ inline bool has_history(const BondLaw &law) {
 }
 
 // Of bonds that remember: whether rows that have failed are kept behind the whole ones of their block, so
-// that packs of a kernel are of one kind.
+// that SIMD vectors of a kernel are of one kind.
 template <class Law, class = void>
 constexpr bool keeps_failed_last = false;
 template <class Law>

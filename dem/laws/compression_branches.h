@@ -1,4 +1,4 @@
-// Yield of an interface in compression along straight branches that bend ever further down, with elastic
+// Yield of a cohesive bond in compression along straight branches that bend ever further down, with elastic
 // unloading. In stresses: e = -k_n u_n is that of closing without yield, q = k_n p the plastic closing p,
 // which never decreases: q >= e - envelope(e) (Onate et al. 2015; docs/theory.md).
 #pragma once

@@ -1,5 +1,5 @@
 // Coulomb friction with a tangential spring. A law is a value: parameters, state, one call operator. Its text
-// is one for one contact and for packs of them (lanes.h), which gives the same bits.
+// is one for one contact and for SIMD vectors of them (lanes.h), which gives the same bits.
 #pragma once
 
 #include <algorithm>

@@ -1,8 +1,8 @@
-// Local elasto-damage-plastic law (Onate et al. 2015 with its gaps filled, docs/theory.md): an interface of
-// area A between two spheres that may be some way apart. Elastic; tension and shear soften by damage; closing
-// yields along straight branches and unloads elastically; what is left after failure is Coulomb friction. It
-// neither bends nor twists, where it is not asked to (interface_moments.h): moments come from the shear
-// force's arms alone.
+// Local elasto-damage-plastic law (Onate et al. 2015 with its gaps filled, docs/theory.md): a cohesive bond
+// of area A between two spheres that may be some way apart. Elastic; tension and shear soften by damage;
+// closing yields along straight branches and unloads elastically; what is left after failure is Coulomb
+// friction. It neither bends nor twists, where it is not asked to (cohesive_moments.h): moments come from the
+// shear force's arms alone.
 //
 // Everything in stresses: k_n = E/|D| per area, u_n = |d| - |D|, and the plastic closing p held as q = k_n p:
 //   T = k_n u_n + q             > 0: tension, < 0: compression
@@ -12,14 +12,14 @@
 //   D_n >= (T/sigma_ft - 1)/delta_n, D_s >= (k_s |u_s|/(tau_f + mu_1 sigma_c) - 1)/delta_s
 //   g(D) = (1 - D)/(1 + delta D)       linear softening, unloading through the origin
 // so that the strength in shear passes from tau_f + mu_1 sigma_c to mu_2 sigma_c as damage grows. An
-// interface whose tension or shear is used up has failed in both.
+// cohesive bond whose tension or shear is used up has failed in both.
 #pragma once
 
 #include <vector>
 
 #include "base/pi.h"
+#include "dem/laws/cohesive_form.h"
 #include "dem/laws/compression_branches.h"
-#include "dem/laws/interface_form.h"
 
 namespace platen::dem {
 
@@ -27,7 +27,7 @@ namespace platen::dem {
 enum class FailureLine { uncoupled, coupled };
 
 template <class Real>
-struct InterfaceState {
+struct CohesiveState {
   Real plastic;                      // q, Pa, >= 0
   Real tension_damage, shear_damage; // D_n, D_s; the one that is 1 is what failed
   Triple<Real> shear;                // u_s, m
@@ -45,7 +45,7 @@ struct InterfaceState {
     v("friction_spring", "m", s.slider...);
   }
 };
-// By moments at the skin of an interface, as they would be without damage.
+// By moments at the skin of a cohesive bond, as they would be without damage.
 template <class Real>
 struct SkinStress {
   Real bending, twisting; // Pa
@@ -59,7 +59,7 @@ struct ElastoDamagePlastic {
     double poisson_ratio = 0.3;                            // k_s = k_n / (2 (1 + nu))
     double tensile_strength = 0;                           // sigma_ft, Pa; 0: never breaks in tension
     double shear_strength = 0;                             // tau_f, Pa; 0: never breaks in shear
-    double friction_static = 0;                            // mu_1, of intact interfaces
+    double friction_static = 0;                            // mu_1, of intact cohesive bonds
     double friction_dynamic = 0;                           // mu_2, of failed ones
     double softening_tension = 0.2, softening_shear = 1.0; // delta, > 0
     // N/m (J/m^2), area under the softening branch; above 0 it takes delta's place: delta = 2 G_f k /
@@ -86,7 +86,7 @@ struct ElastoDamagePlastic {
   CompressionBranches compression;
 
   template <class Real>
-  using State = InterfaceState<Real>;
+  using State = CohesiveState<Real>;
   // 1: it has failed, in tension or in shear.
   template <class Real>
   static Real damage_of(const State<Real> &s) {
@@ -100,73 +100,72 @@ struct ElastoDamagePlastic {
 
   // Brings the state up to date and tells what acts.
   template <class Real>
-  InterfaceResponse<Real> operator()(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
-                                     const InterfaceMotion<Real> &m) const;
+  CohesiveResponse<Real> operator()(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
+                                    const CohesiveMotion<Real> &m) const;
   // The same where moments press, pull and shear the skin too; `skin` is used with moments alone.
   template <bool moments, class Real>
-  InterfaceResponse<Real> advance_under(const SkinStress<Real> &skin, InterfaceState<Real> &s,
-                                        const InterfaceGeometry<Real> &g,
-                                        const InterfaceMotion<Real> &m) const;
-  // The same for what has no damage and gets none in this step: most at most times. False where one of a pack
-  // has some, or may get it: then nothing is told, and the state is to be thrown away. `sound_members` of the
-  // state, in the order of its description, says which of them it changes; the rarely changed ones only where
-  // `yielded`.
+  CohesiveResponse<Real> advance_under(const SkinStress<Real> &skin, CohesiveState<Real> &s,
+                                       const CohesiveGeometry<Real> &g, const CohesiveMotion<Real> &m) const;
+  // The same for what has no damage and gets none in this step: most at most times. False where one of a SIMD
+  // vector has some, or may get it: then nothing is told, and the state is to be thrown away. `sound_members`
+  // of the state, in the order of its description, says which of them it changes; the rarely changed ones
+  // only where `yielded`.
   static constexpr bool quick_while_sound = true;
   static constexpr Changes sound_members[] = {Changes::rarely, Changes::never,  Changes::never,
                                               Changes::never,  Changes::always, Changes::always};
   template <bool moments, class Real>
-  bool advance_sound(const SkinStress<Real> &skin, InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
-                     const InterfaceMotion<Real> &m, InterfaceResponse<Real> &r, bool &yielded) const;
+  bool advance_sound(const SkinStress<Real> &skin, CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
+                     const CohesiveMotion<Real> &m, CohesiveResponse<Real> &r, bool &yielded) const;
   template <class Real>
-  PLATEN_INLINE bool advance_sound(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
-                                   const InterfaceMotion<Real> &m, InterfaceResponse<Real> &r,
+  PLATEN_INLINE bool advance_sound(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
+                                   const CohesiveMotion<Real> &m, CohesiveResponse<Real> &r,
                                    bool &yielded) const {
     return advance_sound<false>(SkinStress<Real>{}, s, g, m, r, yielded);
   }
-  // What has failed stands behind the others: packs are then of one kind.
+  // What has failed stands behind the others: SIMD vectors are then of one kind.
   static constexpr bool failed_rows_last = true;
   // Positive of what has failed, else 0.
   template <class Real>
-  static Real failed(const InterfaceState<Real> &s) {
+  static Real failed(const CohesiveState<Real> &s) {
     const Real zero = s.tension_damage * 0.0;
     return where_positive(Real(1.0 - damage_of(s)), zero, Real(zero + 1.0));
   }
-  // Of a pack that has failed as a whole: whether all of them are apart and were before, so that nothing acts
-  // and nothing changes.
+  // Of a SIMD vector that has failed as a whole: whether all of them are apart and were before, so that
+  // nothing acts and nothing changes.
   template <class Real>
-  bool stays_apart(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+  bool stays_apart(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
                    const Triple<Real> &distance) const;
-  // The first of these for such a pack, torques included.
+  // The first of these for such a SIMD vector, torques included.
   template <class Real>
-  InterfaceResponse<Real> advance_broken(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
-                                         const InterfaceMotion<Real> &m) const;
+  CohesiveResponse<Real> advance_broken(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
+                                        const CohesiveMotion<Real> &m) const;
   // Of moments what is left of them: they lose what the stress of the section loses that has lost more.
   template <class Real>
-  Real share_of_moments(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g) const {
+  Real share_of_moments(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g) const {
     const Shares<Real> of = shares(s, softening(g));
     return of.tension - positive_part(Real(of.tension - of.shear));
   }
   // What acts in a state as it is, at the distance d that it was last brought up to.
   template <class Real>
-  InterfaceResponse<Real> response(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
-                                   const Triple<Real> &d) const;
+  CohesiveResponse<Real> response(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
+                                  const Triple<Real> &d) const;
   // The same as other bonds tell it. Ratios are those of the elastic stress to the strength: 1 where damage
   // begins, 1 + delta where it ends.
-  BondResponse<double> bond_response(const InterfaceState<double> &s, const InterfaceGeometry<double> &g,
-                                     const InterfaceMotion<double> &m) const;
+  BondResponse<double> bond_response(const CohesiveState<double> &s, const CohesiveGeometry<double> &g,
+                                     const CohesiveMotion<double> &m) const;
   template <class Real>
-  HeldByBond<Real> held(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+  HeldByBond<Real> held(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
                         const BondMotion<Real> &pose) const {
-    const InterfaceResponse<Real> r = response(s, g, pose.distance);
+    const CohesiveResponse<Real> r = response(s, g, pose.distance);
     return {r.force, r.energy};
   }
   // Of forces alone, with ratios at a skin that moments strain.
-  BondResponse<double> response_under(const SkinStress<double> &skin, const InterfaceState<double> &s,
-                                      const InterfaceGeometry<double> &g,
-                                      const InterfaceMotion<double> &m) const;
+  BondResponse<double> response_under(const SkinStress<double> &skin, const CohesiveState<double> &s,
+                                      const CohesiveGeometry<double> &g,
+                                      const CohesiveMotion<double> &m) const;
   // J, taken by the plastic closing of a state.
   template <class Real>
-  Real plastic_work(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g) const {
+  Real plastic_work(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g) const {
     return g.area * compression.work(s.plastic) / g.normal_stiffness;
   }
 
@@ -188,13 +187,13 @@ private:
     Real tension, shear; // delta
   };
   template <class Real>
-  Softening<Real> softening(const InterfaceGeometry<Real> &g) const;
+  Softening<Real> softening(const CohesiveGeometry<Real> &g) const;
   template <class Real>
   struct Shares {
     Real tension, shear, friction; // of T where it pulls, of u_s and of x
   };
   template <class Real>
-  Shares<Real> shares(const InterfaceState<Real> &s, const Softening<Real> &delta) const;
+  Shares<Real> shares(const CohesiveState<Real> &s, const Softening<Real> &delta) const;
   template <class Real>
   static Real left(const Real &damage, const Real &delta) { // g(D)
     return (1.0 - damage) / (1.0 + delta * damage);
@@ -208,14 +207,14 @@ private:
     Triple<Real> shear_before, slider_before, slip; // m: turned alone; of the slider, lost
     Real yield;                                     // Pa
 
-    Step(const ElastoDamagePlastic &law, InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
-         const InterfaceMotion<Real> &m);
+    Step(const ElastoDamagePlastic &law, CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
+         const CohesiveMotion<Real> &m);
   };
   template <bool moments, class Real>
-  bool may_be_damaged(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g, const Real &tension,
+  bool may_be_damaged(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g, const Real &tension,
                       const SkinStress<Real> &skin) const;
   template <bool moments, class Real>
-  void damage(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g, const Softening<Real> &delta,
+  void damage(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g, const Softening<Real> &delta,
               const Real &tension, const SkinStress<Real> &skin) const;
 };
 
@@ -238,7 +237,7 @@ void ElastoDamagePlastic::Parameters::describe(Visitor &&v, Self &p) {
     Words<FailureLine>{{"uncoupled", FailureLine::uncoupled}, {"coupled", FailureLine::coupled}},
     "Coupled: tension takes from the shear strength, and shear from the tensile strength.");
   describe_moment_contribution(v, p);
-  v("interface_moments", p.moments,
+  v("cohesive_moments", p.moments,
     "Interfaces resist bending and twisting until they have failed (needs rotation).");
 }
 
@@ -250,7 +249,7 @@ inline ElastoDamagePlastic::ElastoDamagePlastic(const Parameters &p)
       shear_strength_(std::fmin(never_if_zero(p.shear_strength), 1e100)) {}
 
 template <class Real>
-PLATEN_INLINE auto ElastoDamagePlastic::softening(const InterfaceGeometry<Real> &g) const -> Softening<Real> {
+PLATEN_INLINE auto ElastoDamagePlastic::softening(const CohesiveGeometry<Real> &g) const -> Softening<Real> {
   const Parameters &p = parameters;
   const Real kn = g.normal_stiffness / (g.strength_factor * g.strength_factor);
   const auto of = [&](double given, double energy, double strength, const Real &k) {
@@ -262,7 +261,7 @@ PLATEN_INLINE auto ElastoDamagePlastic::softening(const InterfaceGeometry<Real> 
 
 // Damage by the stresses that would act without it.
 template <bool moments, class Real>
-PLATEN_INLINE void ElastoDamagePlastic::damage(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+PLATEN_INLINE void ElastoDamagePlastic::damage(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
                                                const Softening<Real> &delta, const Real &tension,
                                                const SkinStress<Real> &skin) const {
   const Parameters &p = parameters;
@@ -297,7 +296,7 @@ PLATEN_INLINE void ElastoDamagePlastic::damage(InterfaceState<Real> &s, const In
 
 // Of the stresses that would act without damage, those that do.
 template <class Real>
-PLATEN_INLINE auto ElastoDamagePlastic::shares(const InterfaceState<Real> &s,
+PLATEN_INLINE auto ElastoDamagePlastic::shares(const CohesiveState<Real> &s,
                                                const Softening<Real> &delta) const -> Shares<Real> {
   const Real one = s.tension_damage * 0.0 + 1.0;
   const Real left_whole = 1.0 - larger(s.tension_damage, s.shear_damage); // 0 once it has failed
@@ -307,16 +306,16 @@ PLATEN_INLINE auto ElastoDamagePlastic::shares(const InterfaceState<Real> &s,
 }
 
 template <class Real>
-PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::response(const InterfaceState<Real> &s,
-                                                                    const InterfaceGeometry<Real> &g,
-                                                                    const Triple<Real> &d) const {
+PLATEN_INLINE CohesiveResponse<Real> ElastoDamagePlastic::response(const CohesiveState<Real> &s,
+                                                                   const CohesiveGeometry<Real> &g,
+                                                                   const Triple<Real> &d) const {
   const Real kn = g.normal_stiffness, ks = shear_ratio() * kn;
   const Softening<Real> delta = softening(g);
   const Real length = root(dot(d, d));
   const Real tension = kn * (length - g.rest_length) + s.plastic;
   const Shares<Real> share = shares(s, delta);
   const Real opening = positive_part(tension), closing = positive_part(Real(-tension));
-  InterfaceResponse<Real> r;
+  CohesiveResponse<Real> r;
   r.tension = tension;
   r.normal = g.area * (share.tension * opening - closing);
   r.shear = scale(Real(g.area * ks), scale(share.shear, s.shear) + scale(share.friction, s.slider));
@@ -329,9 +328,9 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::response(const Interf
 }
 
 template <class Real>
-PLATEN_INLINE ElastoDamagePlastic::Step<Real>::Step(const ElastoDamagePlastic &law, InterfaceState<Real> &s,
-                                                    const InterfaceGeometry<Real> &g,
-                                                    const InterfaceMotion<Real> &m)
+PLATEN_INLINE ElastoDamagePlastic::Step<Real>::Step(const ElastoDamagePlastic &law, CohesiveState<Real> &s,
+                                                    const CohesiveGeometry<Real> &g,
+                                                    const CohesiveMotion<Real> &m)
     : length(root(dot(m.distance, m.distance))), plane(m, length) {
   const Real kn = g.normal_stiffness, ks = law.shear_ratio() * kn;
   const Real elastic = kn * (g.rest_length - length);
@@ -348,12 +347,13 @@ PLATEN_INLINE ElastoDamagePlastic::Step<Real>::Step(const ElastoDamagePlastic &l
 }
 
 template <bool moments, class Real>
-PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::advance_under(
-    const SkinStress<Real> &skin, InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
-    const InterfaceMotion<Real> &m) const {
+PLATEN_INLINE CohesiveResponse<Real> ElastoDamagePlastic::advance_under(const SkinStress<Real> &skin,
+                                                                        CohesiveState<Real> &s,
+                                                                        const CohesiveGeometry<Real> &g,
+                                                                        const CohesiveMotion<Real> &m) const {
   const Real kn = g.normal_stiffness, ks = shear_ratio() * kn;
   const Softening<Real> delta = softening(g);
-  const InterfaceState<Real> last = s;
+  const CohesiveState<Real> last = s;
   const Step<Real> step(*this, s, g, m);
   const PlaneMotion<Real> &plane = step.plane;
   const Real &length = step.length, &tension = step.tension;
@@ -375,7 +375,7 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::advance_under(
                           (was.friction - is.friction) * dot(slider_before, s.slider) +
                           dot(scale(was.friction, slider_before) + scale(is.friction, s.slider), step.slip);
   s.dissipated = s.dissipated + 0.5 * g.area * (normal_work + ks * shear_work);
-  InterfaceResponse<Real> r = response(s, g, m.distance);
+  CohesiveResponse<Real> r = response(s, g, m.distance);
   const Real whole_now = 1.0 - larger(s.tension_damage, s.shear_damage);
   r.failed_now = where_positive(Real(1.0 - failed_before), where_positive(whole_now, zero, one), zero);
   // What has failed has no such spring.
@@ -387,8 +387,8 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::advance_under(
 // Whether any of them may have damage after this step, without a quotient; the margin makes up for its
 // round-off.
 template <bool moments, class Real>
-PLATEN_INLINE bool ElastoDamagePlastic::may_be_damaged(const InterfaceState<Real> &s,
-                                                       const InterfaceGeometry<Real> &g, const Real &tension,
+PLATEN_INLINE bool ElastoDamagePlastic::may_be_damaged(const CohesiveState<Real> &s,
+                                                       const CohesiveGeometry<Real> &g, const Real &tension,
                                                        const SkinStress<Real> &skin) const {
   constexpr double margin = 1 + 1e-12;
   const Real ks = shear_ratio() * g.normal_stiffness;
@@ -409,10 +409,10 @@ PLATEN_INLINE bool ElastoDamagePlastic::may_be_damaged(const InterfaceState<Real
 }
 
 template <bool moments, class Real>
-PLATEN_INLINE bool ElastoDamagePlastic::advance_sound(const SkinStress<Real> &skin, InterfaceState<Real> &s,
-                                                      const InterfaceGeometry<Real> &g,
-                                                      const InterfaceMotion<Real> &m,
-                                                      InterfaceResponse<Real> &r, bool &yielded) const {
+PLATEN_INLINE bool ElastoDamagePlastic::advance_sound(const SkinStress<Real> &skin, CohesiveState<Real> &s,
+                                                      const CohesiveGeometry<Real> &g,
+                                                      const CohesiveMotion<Real> &m,
+                                                      CohesiveResponse<Real> &r, bool &yielded) const {
   if (any_positive(larger(s.tension_damage, s.shear_damage))) return false;
   const Real ks = shear_ratio() * g.normal_stiffness;
   const Step<Real> step(*this, s, g, m);
@@ -427,21 +427,21 @@ PLATEN_INLINE bool ElastoDamagePlastic::advance_sound(const SkinStress<Real> &sk
 }
 
 template <class Real>
-PLATEN_INLINE bool ElastoDamagePlastic::stays_apart(const InterfaceState<Real> &s,
-                                                    const InterfaceGeometry<Real> &g,
+PLATEN_INLINE bool ElastoDamagePlastic::stays_apart(const CohesiveState<Real> &s,
+                                                    const CohesiveGeometry<Real> &g,
                                                     const Triple<Real> &distance) const {
   return are_apart(g, distance, s.plastic, s.slider);
 }
 
 template <class Real>
-PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::advance_broken(
-    InterfaceState<Real> &s, const InterfaceGeometry<Real> &g, const InterfaceMotion<Real> &m) const {
+PLATEN_INLINE CohesiveResponse<Real> ElastoDamagePlastic::advance_broken(
+    CohesiveState<Real> &s, const CohesiveGeometry<Real> &g, const CohesiveMotion<Real> &m) const {
   const Real ks = shear_ratio() * g.normal_stiffness;
   const Step<Real> step(*this, s, g, m);
   const Real closing = positive_part(Real(-step.tension)), zero = closing * 0.0;
   s.shear = {zero, zero, zero};
   s.dissipated = s.dissipated + 0.5 * g.area * ks * dot(step.slider_before + s.slider, step.slip);
-  InterfaceResponse<Real> r;
+  CohesiveResponse<Real> r;
   r.tension = step.tension;
   r.normal = -g.area * closing;
   r.shear = scale(Real(g.area * ks), s.slider);
@@ -454,9 +454,9 @@ PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::advance_broken(
 }
 
 template <class Real>
-PLATEN_INLINE InterfaceResponse<Real> ElastoDamagePlastic::operator()(InterfaceState<Real> &s,
-                                                                      const InterfaceGeometry<Real> &g,
-                                                                      const InterfaceMotion<Real> &m) const {
+PLATEN_INLINE CohesiveResponse<Real> ElastoDamagePlastic::operator()(CohesiveState<Real> &s,
+                                                                     const CohesiveGeometry<Real> &g,
+                                                                     const CohesiveMotion<Real> &m) const {
   return advance_under<false>(SkinStress<Real>{}, s, g, m);
 }
 
@@ -468,10 +468,10 @@ inline BondStiffness ElastoDamagePlastic::stiffness(const BondGeometry<double> &
 }
 
 inline BondResponse<double> ElastoDamagePlastic::response_under(const SkinStress<double> &skin,
-                                                                const InterfaceState<double> &s,
-                                                                const InterfaceGeometry<double> &g,
-                                                                const InterfaceMotion<double> &m) const {
-  const InterfaceResponse<double> from = response(s, g, m.distance);
+                                                                const CohesiveState<double> &s,
+                                                                const CohesiveGeometry<double> &g,
+                                                                const CohesiveMotion<double> &m) const {
+  const CohesiveResponse<double> from = response(s, g, m.distance);
   const Triple<double> moment = cross(m.distance, from.force);
   BondResponse<double> r;
   r.force = from.force;

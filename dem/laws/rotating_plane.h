@@ -1,5 +1,5 @@
 // Carries a vector that lives in a contact plane (a tangential spring, a rolling moment) along with the
-// plane. One text for one contact and for packs of them (lanes.h), which gives the same bits.
+// plane. One text for one contact and for SIMD vectors of them (lanes.h), which gives the same bits.
 #pragma once
 
 #include "base/portable.h"

@@ -14,8 +14,8 @@
 
 #include <vector>
 
+#include "dem/laws/cohesive_form.h"
 #include "dem/laws/compression_branches.h"
-#include "dem/laws/interface_form.h"
 #include "dem/laws/parallel_bond.h"
 
 namespace platen::dem {
@@ -82,64 +82,64 @@ struct YieldingParallelBond {
 
   // Brings the state up to date and tells what acts.
   template <class Real>
-  InterfaceResponse<Real> operator()(State<Real> &s, const InterfaceGeometry<Real> &g,
-                                     const InterfaceMotion<Real> &m) const;
+  CohesiveResponse<Real> operator()(State<Real> &s, const CohesiveGeometry<Real> &g,
+                                    const CohesiveMotion<Real> &m) const;
   // The same for what is whole and stays so, from its pose alone: most bonds at most times. False where one
-  // of a pack is broken, or breaks in this step: then nothing is changed or told. `pose()` is a BondMotion at
-  // `distance`; it is asked for once the yield is known, because not all of it fits the registers.
+  // of a SIMD vector is broken, or breaks in this step: then nothing is changed or told. `pose()` is a
+  // BondMotion at `distance`; it is asked for once the yield is known, because not all of it fits the
+  // registers.
   static constexpr bool quick_while_whole = true;
   static constexpr std::size_t scalars_while_whole = 1; // of its State, from the first: those that it changes
   template <class Real, class Pose>
-  bool advance_whole(State<Real> &s, const InterfaceGeometry<Real> &g, const Triple<Real> &distance,
-                     const Pose &pose, InterfaceResponse<Real> &r, bool &changed) const;
-  // What has broken stands behind what is whole: packs are then of one kind.
+  bool advance_whole(State<Real> &s, const CohesiveGeometry<Real> &g, const Triple<Real> &distance,
+                     const Pose &pose, CohesiveResponse<Real> &r, bool &changed) const;
+  // What has broken stands behind what is whole: SIMD vectors are then of one kind.
   static constexpr bool failed_rows_last = true;
-  // Of a pack that is broken as a whole: whether all of them are apart and were before, so that nothing acts
-  // and nothing changes.
+  // Of a SIMD vector that is broken as a whole: whether all of them are apart and were before, so that
+  // nothing acts and nothing changes.
   template <class Real>
-  bool stays_apart(const State<Real> &s, const InterfaceGeometry<Real> &g,
-                   const Triple<Real> &distance) const;
-  // The first of these for such a pack, which needs no orientations.
+  bool stays_apart(const State<Real> &s, const CohesiveGeometry<Real> &g, const Triple<Real> &distance) const;
+  // The first of these for such a SIMD vector, which needs no orientations.
   template <class Real>
-  InterfaceResponse<Real> advance_broken(State<Real> &s, const InterfaceGeometry<Real> &g,
-                                         const InterfaceMotion<Real> &m) const;
+  CohesiveResponse<Real> advance_broken(State<Real> &s, const CohesiveGeometry<Real> &g,
+                                        const CohesiveMotion<Real> &m) const;
   // How much more the motion from a state to the present is resisted when it goes on: that of the branch
   // where it yields, nothing of what is apart, nothing in shear of what slides (what friction does across its
   // direction, and its growth with the pressure, which has no symmetry, are left out). N/m, N m.
-  BondStiffness tangent(State<double> from, const InterfaceGeometry<double> &g,
-                        const InterfaceMotion<double> &m) const;
+  BondStiffness tangent(State<double> from, const CohesiveGeometry<double> &g,
+                        const CohesiveMotion<double> &m) const;
   // What acts in a state as it is.
-  BondResponse<double> bond_response(const State<double> &s, const InterfaceGeometry<double> &g,
-                                     const InterfaceMotion<double> &m) const;
+  BondResponse<double> bond_response(const State<double> &s, const CohesiveGeometry<double> &g,
+                                     const CohesiveMotion<double> &m) const;
   // The same in short: force and stored energy alone.
   template <class Real>
-  HeldByBond<Real> held(const State<Real> &s, const InterfaceGeometry<Real> &g,
+  HeldByBond<Real> held(const State<Real> &s, const CohesiveGeometry<Real> &g,
                         const BondMotion<Real> &pose) const;
   // J, taken by the plastic closing of a state.
   template <class Real>
-  Real plastic_work(const State<Real> &s, const InterfaceGeometry<Real> &g) const {
+  Real plastic_work(const State<Real> &s, const CohesiveGeometry<Real> &g) const {
     return g.area * compression.work(s.plastic) / g.normal_stiffness;
   }
 
 private:
   template <class Real>
-  BondResponse<Real> whole(const Real &plastic, const InterfaceGeometry<Real> &g,
-                           const BondMotion<Real> &pose, Triple<Real> &slip) const;
+  BondResponse<Real> whole(const Real &plastic, const CohesiveGeometry<Real> &g, const BondMotion<Real> &pose,
+                           Triple<Real> &slip) const;
   template <class Real>
-  BondResponse<Real> broken(const State<Real> &s, const InterfaceGeometry<Real> &g,
+  BondResponse<Real> broken(const State<Real> &s, const CohesiveGeometry<Real> &g,
                             const Triple<Real> &distance) const;
   template <class Real>
   Real yields(const Real &plastic, const Real &elastic) const;
   template <class Real>
   static Real reached(const BondResponse<Real> &bond);
   template <class Real>
-  static void tell_whole(const BondResponse<Real> &bond, const Real &tension, InterfaceResponse<Real> &r);
+  static void tell_whole(const BondResponse<Real> &bond, const Real &tension, CohesiveResponse<Real> &r);
 };
 
 // As ParallelBond::turning, but for what has yielded.
 template <class Real>
 PLATEN_INLINE BondResponse<Real> YieldingParallelBond::whole(const Real &plastic,
-                                                             const InterfaceGeometry<Real> &g,
+                                                             const CohesiveGeometry<Real> &g,
                                                              const BondMotion<Real> &pose,
                                                              Triple<Real> &slip) const {
   const Parameters &p = parameters;
@@ -169,7 +169,7 @@ PLATEN_INLINE BondResponse<Real> YieldingParallelBond::whole(const Real &plastic
 
 template <class Real>
 PLATEN_INLINE BondResponse<Real> YieldingParallelBond::broken(const State<Real> &s,
-                                                              const InterfaceGeometry<Real> &g,
+                                                              const CohesiveGeometry<Real> &g,
                                                               const Triple<Real> &distance) const {
   const Real kn = g.normal_stiffness, ks = parameters.stiffness_ratio * kn;
   const Real length = root(dot(distance, distance));
@@ -187,7 +187,7 @@ PLATEN_INLINE BondResponse<Real> YieldingParallelBond::broken(const State<Real> 
 
 template <class Real>
 PLATEN_INLINE void YieldingParallelBond::tell_whole(const BondResponse<Real> &bond, const Real &tension,
-                                                    InterfaceResponse<Real> &r) {
+                                                    CohesiveResponse<Real> &r) {
   r.force = bond.force, r.torque_i = bond.torque_i, r.torque_j = bond.torque_j, r.shear = bond.shear;
   r.normal = bond.normal_force, r.energy = bond.energy, r.tension = tension;
   r.failed_now = tension * 0.0;
@@ -206,9 +206,9 @@ PLATEN_INLINE Real YieldingParallelBond::yields(const Real &plastic, const Real 
 }
 
 template <class Real, class Pose>
-PLATEN_INLINE bool YieldingParallelBond::advance_whole(State<Real> &s, const InterfaceGeometry<Real> &g,
+PLATEN_INLINE bool YieldingParallelBond::advance_whole(State<Real> &s, const CohesiveGeometry<Real> &g,
                                                        const Triple<Real> &distance, const Pose &pose,
-                                                       InterfaceResponse<Real> &r, bool &changed) const {
+                                                       CohesiveResponse<Real> &r, bool &changed) const {
   if (any_positive(s.broken)) return false;
   const Real length = root(dot(distance, distance));
   const Real elastic = g.normal_stiffness * (g.rest_length - length);
@@ -223,16 +223,16 @@ PLATEN_INLINE bool YieldingParallelBond::advance_whole(State<Real> &s, const Int
 }
 
 template <class Real>
-PLATEN_INLINE InterfaceResponse<Real> YieldingParallelBond::operator()(State<Real> &s,
-                                                                       const InterfaceGeometry<Real> &g,
-                                                                       const InterfaceMotion<Real> &m) const {
+PLATEN_INLINE CohesiveResponse<Real> YieldingParallelBond::operator()(State<Real> &s,
+                                                                      const CohesiveGeometry<Real> &g,
+                                                                      const CohesiveMotion<Real> &m) const {
   const Real kn = g.normal_stiffness, ks = parameters.stiffness_ratio * kn;
   const Real length = root(dot(m.distance, m.distance)), elastic = kn * (g.rest_length - length);
   const Real zero = elastic * 0.0, one = zero + 1.0;
   s.plastic = s.plastic + yields(s.plastic, elastic);
   Triple<Real> slip;
   const BondResponse<Real> bond = whole(s.plastic, g, {m.distance, m.turn_i, m.turn_j}, slip);
-  InterfaceResponse<Real> r;
+  CohesiveResponse<Real> r;
   tell_whole(bond, Real(s.plastic - elastic), r);
   const Real was_broken = s.broken;
   const Real breaking = where_positive(was_broken, zero, reached(bond));
@@ -279,14 +279,14 @@ PLATEN_INLINE InterfaceResponse<Real> YieldingParallelBond::operator()(State<Rea
 }
 
 template <class Real>
-PLATEN_INLINE bool YieldingParallelBond::stays_apart(const State<Real> &s, const InterfaceGeometry<Real> &g,
+PLATEN_INLINE bool YieldingParallelBond::stays_apart(const State<Real> &s, const CohesiveGeometry<Real> &g,
                                                      const Triple<Real> &distance) const {
   return are_apart(g, distance, s.plastic, s.slider);
 }
 
 template <class Real>
-PLATEN_INLINE InterfaceResponse<Real> YieldingParallelBond::advance_broken(
-    State<Real> &s, const InterfaceGeometry<Real> &g, const InterfaceMotion<Real> &m) const {
+PLATEN_INLINE CohesiveResponse<Real> YieldingParallelBond::advance_broken(
+    State<Real> &s, const CohesiveGeometry<Real> &g, const CohesiveMotion<Real> &m) const {
   const Real kn = g.normal_stiffness, ks = parameters.stiffness_ratio * kn;
   const Real length = root(dot(m.distance, m.distance)), elastic = kn * (g.rest_length - length);
   s.plastic = s.plastic + yields(s.plastic, elastic);
@@ -297,14 +297,14 @@ PLATEN_INLINE InterfaceResponse<Real> YieldingParallelBond::advance_broken(
   const Real let_slip = slipping_share(carried, ks, cap);
   s.slider = scale(Real(1.0 - let_slip), carried);
   s.dissipated = s.dissipated + 0.5 * g.area * ks * dot(before + s.slider, scale(let_slip, carried));
-  InterfaceResponse<Real> r;
+  CohesiveResponse<Real> r;
   tell_whole(broken(s, g, m.distance), Real(s.plastic - elastic), r);
   return r;
 }
 
 template <class Real>
 PLATEN_INLINE HeldByBond<Real> YieldingParallelBond::held(const State<Real> &s,
-                                                          const InterfaceGeometry<Real> &g,
+                                                          const CohesiveGeometry<Real> &g,
                                                           const BondMotion<Real> &pose) const {
   Triple<Real> slip;
   const BondResponse<Real> bond = whole(s.plastic, g, pose, slip);
@@ -317,8 +317,8 @@ PLATEN_INLINE HeldByBond<Real> YieldingParallelBond::held(const State<Real> &s,
 }
 
 inline BondResponse<double> YieldingParallelBond::bond_response(const State<double> &s,
-                                                                const InterfaceGeometry<double> &g,
-                                                                const InterfaceMotion<double> &m) const {
+                                                                const CohesiveGeometry<double> &g,
+                                                                const CohesiveMotion<double> &m) const {
   Triple<double> slip;
   BondResponse<double> r = whole(s.plastic, g, {m.distance, m.turn_i, m.turn_j}, slip);
   if (s.broken > 0) {
@@ -330,10 +330,10 @@ inline BondResponse<double> YieldingParallelBond::bond_response(const State<doub
   return r;
 }
 
-inline BondStiffness YieldingParallelBond::tangent(State<double> s, const InterfaceGeometry<double> &g,
-                                                   const InterfaceMotion<double> &m) const {
+inline BondStiffness YieldingParallelBond::tangent(State<double> s, const CohesiveGeometry<double> &g,
+                                                   const CohesiveMotion<double> &m) const {
   const State<double> from = s;
-  const InterfaceResponse<double> now = (*this)(s, g, m);
+  const CohesiveResponse<double> now = (*this)(s, g, m);
   BondStiffness k = stiffness({g.reference, g.rest_length, g.lever, g.normal_stiffness, g.radius});
   const double closing = g.normal_stiffness * (g.rest_length - root(dot(m.distance, m.distance)));
   if (s.plastic > from.plastic) k.axial *= compression.slope(closing);

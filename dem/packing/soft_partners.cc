@@ -13,7 +13,7 @@
 namespace platen::dem {
 namespace {
 
-using kernels::soft_pack;
+using kernels::soft_group;
 
 // Of the extent: more than places lose in single precision.
 constexpr double relative_slack = 1e-6;
@@ -117,13 +117,14 @@ private:
 // What one thread needs while it makes lists.
 struct Found {
   std::vector<int> ball;
-  std::array<int, block_rows + soft_pack + 1> first;
-  std::array<int, block_rows + soft_pack> order;
+  std::array<int, block_rows + soft_group + 1> first;
+  std::array<int, block_rows + soft_group> order;
 
   int count(int row) const { return first[row + 1] - first[row]; }
 };
 
-// Of the block's rows, whole packs of them, those with most partners first: packs then hold few empty lanes.
+// Of the block's rows, whole groups of them, those with most partners first: groups then hold few empty
+// lanes.
 void sort_rows(Found &found, int rows) {
   int most = 0;
   for (int r = 0; r < rows; ++r)
@@ -151,14 +152,14 @@ unsigned offset(int row) {
 }
 
 void write(const std::vector<SoftBall> &balls, int first, int rows, const Found &found, SoftPartners &to) {
-  const int lanes = static_cast<int>(soft_pack);
+  const int lanes = static_cast<int>(soft_group);
   to.row.clear(), to.steps.clear();
   std::size_t steps = 0;
   for (int r = 0; r < rows; ++r) {
     to.row.push_back(first + found.order[r]);
     if (r % lanes == 0) to.steps.push_back(found.count(found.order[r])), steps += to.steps.back();
   }
-  make_room(to.partner, soft_pack * steps), make_room(to.apart, 4 * soft_pack * steps);
+  make_room(to.partner, soft_group * steps), make_room(to.apart, 4 * soft_group * steps);
   unsigned *partner = to.partner.data();
   float *apart = to.apart.data();
   for (int r = 0; r < rows; r += lanes)
@@ -188,7 +189,7 @@ void find_soft_partners(const std::vector<SoftBall> &balls, std::size_t own,
   blocks.resize(number_of_blocks(own));
   for_each_block(own, [&](std::size_t first, std::size_t last, std::size_t block) {
     Found found;
-    const int rows = static_cast<int>(number_of_blocks(last - first, soft_pack) * soft_pack);
+    const int rows = static_cast<int>(number_of_blocks(last - first, soft_group) * soft_group);
     std::size_t count = 0;
     for (int r = 0; r < rows; ++r) {
       const std::size_t i = first + static_cast<std::size_t>(r);

@@ -1,4 +1,4 @@
-// Which soft spheres may touch soon: for every sphere all its partners, in packs that the kernels read
+// Which soft spheres may touch soon: for every sphere all its partners, in groups that the kernels read
 // (dem/kernels/soft_kernel.h). Lengths in mean radii.
 #pragma once
 
@@ -31,7 +31,7 @@ struct SoftPartners {
 };
 
 // For the first `own` balls, which are the rows of that number, every other ball whose gap both together may
-// cross. Spheres with as many partners share packs.
+// cross. Spheres with as many partners share groups.
 void find_soft_partners(const std::vector<SoftBall> &balls, std::size_t own,
                         std::vector<SoftPartners> &blocks);
 

@@ -11,7 +11,7 @@
 
 namespace platen::dem {
 
-using kernels::soft_pack;
+using kernels::soft_group;
 using kernels::SoftRow;
 
 namespace {
@@ -103,7 +103,7 @@ SoftSpheres::SoftSpheres(Room room, std::vector<Vector3> centre, std::vector<dou
   largest_factor_ = factor_.empty() ? 1.0 : *std::max_element(factor_.begin(), factor_.end());
   for (const Obstacle &o : obstacles_)
     largest_factor_ = std::max(largest_factor_, o.factor);
-  rows_ = number_of_blocks(size(), soft_pack) * soft_pack;
+  rows_ = number_of_blocks(size(), soft_group) * soft_group;
   velocity_.resize(rows_), force_.resize(rows_), outside_.resize(rows_);
   way_.assign(rows_ + obstacles_.size(), {0, 0, 0, 1}); // spare rows need some radius
   reach_.assign(size(), first_reach);
@@ -233,13 +233,13 @@ void SoftSpheres::for_each_touch(const Visit &visit) const {
   for (const SoftPartners &block : partners_) {
     const float *apart = block.apart.data();
     const unsigned *partner = block.partner.data();
-    for (std::size_t pack = 0; pack < block.steps.size(); ++pack)
-      for (int k = 0; k < block.steps[pack]; ++k, partner += soft_pack, apart += 4 * soft_pack)
-        for (std::size_t l = 0; l < soft_pack; ++l) {
-          const double outside = static_cast<double>(apart[3 * soft_pack + l]);
+    for (std::size_t group = 0; group < block.steps.size(); ++group)
+      for (int k = 0; k < block.steps[group]; ++k, partner += soft_group, apart += 4 * soft_group)
+        for (std::size_t l = 0; l < soft_group; ++l) {
+          const double outside = static_cast<double>(apart[3 * soft_group + l]);
           if (!(outside < 0)) continue;
-          const Vector3 d{apart[l], apart[soft_pack + l], apart[2 * soft_pack + l]};
-          const int row = block.row[soft_pack * pack + l];
+          const Vector3 d{apart[l], apart[soft_group + l], apart[2 * soft_group + l]};
+          const int row = block.row[soft_group * group + l];
           const double reach = static_cast<double>(way_[static_cast<std::size_t>(row)].w) +
                                static_cast<double>(way_[partner[l] / sizeof(SoftRow)].w);
           visit(static_cast<std::size_t>(row), -outside / (reach + norm(d)));

@@ -94,9 +94,9 @@ private:
   std::vector<Obstacle> obstacles_;
   std::vector<Vector3> centre_; // when the lists were made
   std::vector<Vector3> press_;  // a constant force on each, or empty
-  // Spheres, filled up to whole packs; of ways also obstacles, which have none. Outside: walls and press.
+  // Spheres, filled up to whole groups; of ways also obstacles, which have none. Outside: walls and press.
   AlignedVector<kernels::SoftRow> way_, velocity_, force_, outside_;
-  std::size_t rows_ = 0; // whole packs
+  std::size_t rows_ = 0; // whole groups
   std::vector<SoftPartners> partners_;
   std::vector<SoftBall> balls_; // of the last search; kept for their memory
   SoftWalls walls_;

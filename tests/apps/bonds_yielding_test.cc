@@ -26,8 +26,8 @@ BondRun run_pair(Words overrides) {
 
 void expect_by_hand(const BondRun &run, double close) {
   EXPECT_LT(run.interface.largest_difference(), close);
-  const InterfaceRow &last = run.interface.rows.back();
-  const InterfaceReading &m = last.measured;
+  const CohesiveRow &last = run.interface.rows.back();
+  const CohesiveReading &m = last.measured;
   EXPECT_NEAR(m.dissipated, last.dissipated_by_hand, 10 * close * m.work);
   EXPECT_NEAR(m.work, m.stored + m.dissipated, 10 * close * m.work);
 }

@@ -36,14 +36,14 @@ Scene yielding_scene() {
   return s;
 }
 
-const std::vector<Knob> eight{Knob::modulus,
-                              Knob::stiffness_ratio,
-                              Knob::tensile_strength,
-                              Knob::shear_strength,
-                              Knob::moment_contribution,
-                              Knob::friction_angle,
-                              Knob::compression_limits,
-                              Knob::contact_friction};
+const std::vector<FreeParameter> eight{FreeParameter::modulus,
+                              FreeParameter::stiffness_ratio,
+                              FreeParameter::tensile_strength,
+                              FreeParameter::shear_strength,
+                              FreeParameter::moment_contribution,
+                              FreeParameter::friction_angle,
+                              FreeParameter::compression_limits,
+                              FreeParameter::contact_friction};
 const std::vector<double> truth{48e9, 0.25, 9e6, 36e6, 0.22, 26.565 * degree, 1.2, 0.35};
 // Exponents of each target (row) with these parameters, in the way that a concrete goes.
 constexpr double exponents[8][8] = {{1, 0.2, 0, 0, 0, 0, 0, 0},
@@ -101,13 +101,13 @@ TEST(ManyTargets, eight_parameters_of_a_manufactured_response_are_recovered) {
   const Analysis a = analyse(goals, scene.own<Calibrate>().tolerance, f.sensitivities);
   EXPECT_TRUE(f.sensitivities.measured);
   // A line through differences that reach to twice the moment contribution is no power law.
-  for (Eigen::Index knob = 0; knob < 8; ++knob)
+  for (Eigen::Index parameter = 0; parameter < 8; ++parameter)
     for (Eigen::Index goal = 0; goal < 8; ++goal)
-      EXPECT_NEAR(a.sensitivities(knob, goal), exponents[goal][knob], 0.18)
-          << facts_of(Calibrate(), eight[static_cast<std::size_t>(knob)]).words << " "
+      EXPECT_NEAR(a.sensitivities(parameter, goal), exponents[goal][parameter], 0.18)
+          << facts_of(Calibrate(), eight[static_cast<std::size_t>(parameter)]).words << " "
           << goals.all()[static_cast<std::size_t>(goal)].words;
-  for (Eigen::Index knob = 0; knob < 8; ++knob)
-    EXPECT_NEAR(a.correlations(knob, knob), 1, 1e-9);
+  for (Eigen::Index parameter = 0; parameter < 8; ++parameter)
+    EXPECT_NEAR(a.correlations(parameter, parameter), 1, 1e-9);
 }
 
 // One run of the scene's cylinder serves its strength, its secant ratio and what a short one is over.
@@ -296,20 +296,20 @@ TEST(ManyTargets, any_entry_of_the_scene_is_found) {
   c.freed = {rolling, gap};
   c.targets = {target_of(TargetKind::strength, 40e6, 0.005), target_of(TargetKind::other, 0.3, 0.005)};
   c.targets[1].figure = "middle_damage";
-  const std::vector<Knob> knobs = knobs_of(scene);
-  ASSERT_EQ(knobs.size(), 2u);
+  const std::vector<FreeParameter> free = parameters_of(scene);
+  ASSERT_EQ(free.size(), 2u);
   const Goals goals(scene);
   const Found f = search(scene, goals, test_of(goals, [&](const Goal &goal, const Choice &at) {
-                           const double r = at[knobs[0]], g = at[knobs[1]] / 100;
+                           const double r = at[free[0]], g = at[free[1]] / 100;
                            return goal.target.kind == TargetKind::strength
                                       ? 40e6 * std::pow(g, 0.4) * (0.7 + r)
                                       : 0.3 * std::pow(g, -0.2) * (1.3 - r);
                          }));
-  EXPECT_NEAR(f.choice[knobs[0]], 0.3, 0.03);
-  EXPECT_NEAR(f.choice[knobs[1]], 100, 8);
+  EXPECT_NEAR(f.choice[free[0]], 0.3, 0.03);
+  EXPECT_NEAR(f.choice[free[1]], 100, 8);
   EXPECT_TRUE(f.sensitivities.measured); // nothing is known of them beforehand
-  EXPECT_EQ(facts_of(c, knobs[1]).column, "Bond_Fracture_energy");
-  const std::vector<SearchParameter> axes = Space(scene, choice_of(scene), knobs).parameters(false);
+  EXPECT_EQ(facts_of(c, free[1]).column, "Bond_Fracture_energy");
+  const std::vector<SearchParameter> axes = Space(scene, choice_of(scene), free).parameters(false);
   EXPECT_EQ(axes[0].low, 0); // as it is, over its room of 0.5
   EXPECT_DOUBLE_EQ(axes[0].high, 1);
   EXPECT_DOUBLE_EQ(axes[1].high - axes[1].low, std::log(100.0) / 2.5);
@@ -323,7 +323,7 @@ TEST(ManyTargets, any_entry_of_the_scene_is_found) {
 // What ends at zero has its effect all the same, and is zero exactly.
 TEST(ManyTargets, a_friction_angle_of_zero_is_sensed_by_a_tenth_of_its_room) {
   Scene scene = yielding_scene();
-  scene.own<Calibrate>().free = {Knob::modulus, Knob::friction_angle};
+  scene.own<Calibrate>().free = {FreeParameter::modulus, FreeParameter::friction_angle};
   Choice at = choice_of(scene);
   const Space space(scene, at, scene.own<Calibrate>().free);
   Eigen::MatrixXd slopes(1, 2);
@@ -331,25 +331,25 @@ TEST(ManyTargets, a_friction_angle_of_zero_is_sensed_by_a_tenth_of_its_room) {
   Eigen::VectorXd x(2);
   x << space.parameters(false)[0].start, 1e-13;
   at = space.choice(x);
-  EXPECT_EQ(at[Knob::friction_angle], 0);
+  EXPECT_EQ(at[FreeParameter::friction_angle], 0);
   EXPECT_NEAR(space.by_logarithms(slopes, at)(0, 1), 3 * 0.1 * 60 * degree, 1e-12);
   x[1] = 0.5;
   at = space.choice(x);
-  EXPECT_NEAR(space.by_logarithms(slopes, at)(0, 1), 3 * at[Knob::friction_angle], 1e-12);
+  EXPECT_NEAR(space.by_logarithms(slopes, at)(0, 1), 3 * at[FreeParameter::friction_angle], 1e-12);
 }
 
 TEST(ManyTargets, parameters_that_act_as_one_are_told) {
   Scene scene = yielding_scene();
   scene.own<Calibrate>().targets = {target_of(TargetKind::strength, 43e6), at_pressure(3e6, 62e6)};
-  scene.own<Calibrate>().free = {Knob::compression_limits, Knob::contact_friction};
+  scene.own<Calibrate>().free = {FreeParameter::compression_limits, FreeParameter::contact_friction};
   scene.own<Calibrate>().differences = true;
   const Goals goals(scene);
   const Found f =
       search(scene, goals, test_of(goals, [](const Goal &goal, const Choice &c) {
                return goal.target.value *
-                      std::pow(c[Knob::compression_limits] * c[Knob::contact_friction] / 0.6, 0.5);
+                      std::pow(c[FreeParameter::compression_limits] * c[FreeParameter::contact_friction] / 0.6, 0.5);
              }));
-  EXPECT_NEAR(f.choice[Knob::compression_limits] * f.choice[Knob::contact_friction], 0.6, 0.03);
+  EXPECT_NEAR(f.choice[FreeParameter::compression_limits] * f.choice[FreeParameter::contact_friction], 0.6, 0.03);
   const Analysis a = analyse(goals, scene.own<Calibrate>().tolerance, f.sensitivities);
   EXPECT_LT(a.correlations(0, 1), -0.99);
   ASSERT_EQ(a.correlated.size(), 1u);
@@ -367,16 +367,16 @@ TEST(ManyTargets, what_cannot_be_met_together_is_told_with_what_pulls) {
   scene.own<Calibrate>().targets[1].entries = {"Specimen/Height = 50 mm"};
   scene.own<Calibrate>().targets[1].number = 2;
   scene.own<Calibrate>().targets[1].tolerance = 0.02 / std::sqrt(3.0);
-  scene.own<Calibrate>().free = {Knob::tensile_strength, Knob::shear_strength};
+  scene.own<Calibrate>().free = {FreeParameter::tensile_strength, FreeParameter::shear_strength};
   scene.own<Calibrate>().differences = true;
   const Goals goals(scene);
   const Found f = search(scene, goals, test_of(goals, [](const Goal &goal, const Choice &c) {
                            const bool tension = goal.target.kind == TargetKind::tension;
-                           return tension ? 0.5 * c[Knob::tensile_strength] : c[Knob::shear_strength];
+                           return tension ? 0.5 * c[FreeParameter::tensile_strength] : c[FreeParameter::shear_strength];
                          }));
   // Least squares of logarithms over tolerances: weights 1 and 3.
-  EXPECT_NEAR(f.choice[Knob::shear_strength], std::exp(0.25 * std::log(40e6) + 0.75 * std::log(50e6)), 2e5);
-  EXPECT_NEAR(f.choice[Knob::tensile_strength], 9e6, 0.02 * 9e6);
+  EXPECT_NEAR(f.choice[FreeParameter::shear_strength], std::exp(0.25 * std::log(40e6) + 0.75 * std::log(50e6)), 2e5);
+  EXPECT_NEAR(f.choice[FreeParameter::tensile_strength], 9e6, 0.02 * 9e6);
   const std::vector<std::string> lines = missed(goals, f);
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_NE(lines[0].find("against it pulls (2) compressive strength, MPa"), std::string::npos) << lines[0];
@@ -461,7 +461,7 @@ TEST_F(CurveFile, a_search_recovers_what_a_curve_was_made_of) {
   Scene scene = yielding_scene();
   scene.own<Calibrate>().targets = {target_of(TargetKind::curve, not_given, 0.01)};
   scene.own<Calibrate>().targets[0].file = path.string();
-  scene.own<Calibrate>().free = {Knob::modulus, Knob::tensile_strength};
+  scene.own<Calibrate>().free = {FreeParameter::modulus, FreeParameter::tensile_strength};
   scene.own<Calibrate>().differences = true;
   scene.model.bond_layout.modulus = 20e9;
   const Goals goals(scene);
@@ -471,7 +471,7 @@ TEST_F(CurveFile, a_search_recovers_what_a_curve_was_made_of) {
       std::vector<TrialResult> results(goals.tests().size());
       for (std::size_t point = 1; point <= curve_points; ++point)
         results[goals.all()[0].test].curve.push_back(
-            stress(c[Knob::modulus], 10 * c[Knob::tensile_strength], 3e-3 * double(point) / curve_points));
+            stress(c[FreeParameter::modulus], 10 * c[FreeParameter::tensile_strength], 3e-3 * double(point) / curve_points));
       all.push_back(goals.measured(results));
     }
     return all;
@@ -479,8 +479,8 @@ TEST_F(CurveFile, a_search_recovers_what_a_curve_was_made_of) {
   const Found f = search(scene, goals, test);
   EXPECT_TRUE(missed(goals, f).empty());
   EXPECT_LE(f.trials, 12);
-  EXPECT_NEAR(f.choice[Knob::modulus], 30e9, 0.03 * 30e9);
-  EXPECT_NEAR(f.choice[Knob::tensile_strength], 4e6, 0.03 * 4e6);
+  EXPECT_NEAR(f.choice[FreeParameter::modulus], 30e9, 0.03 * 30e9);
+  EXPECT_NEAR(f.choice[FreeParameter::tensile_strength], 4e6, 0.03 * 4e6);
 }
 
 // Packings of a search that are a twentieth weaker in one number than others: the search ends by the mean of

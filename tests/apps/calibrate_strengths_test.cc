@@ -42,13 +42,13 @@ struct StandIn {
     return (1 + sine) / (1 - sine);
   }
   double strength(TargetKind kind, const Choice &c) const {
-    const double ratio = c[Knob::shear_strength] / c[Knob::tensile_strength];
-    const double tensile = 0.545 * c[Knob::tensile_strength];
+    const double ratio = c[FreeParameter::shear_strength] / c[FreeParameter::tensile_strength];
+    const double tensile = 0.545 * c[FreeParameter::tensile_strength];
     const double compressive =
-        tensile * std::exp(2.34 - 0.62 / ratio - by_moments * (c[Knob::moment_contribution] - 0.3) +
-                           0.2 * (c[Knob::friction_angle] - 45 * degree) / ratio);
+        tensile * std::exp(2.34 - 0.62 / ratio - by_moments * (c[FreeParameter::moment_contribution] - 0.3) +
+                           0.2 * (c[FreeParameter::friction_angle] - 45 * degree) / ratio);
     if (kind == TargetKind::tension) return tensile;
-    return kind == TargetKind::strength ? compressive : compressive + slope(c[Knob::friction_angle]) * 4.5e6;
+    return kind == TargetKind::strength ? compressive : compressive + slope(c[FreeParameter::friction_angle]) * 4.5e6;
   }
   double operator()(const Goal &goal, const Choice &c) {
     std::normal_distribution<double> normal;
@@ -59,7 +59,7 @@ struct StandIn {
 struct Result {
   Found found;
   std::vector<std::string> missed;
-  double operator[](Knob knob) const { return found.choice[knob]; }
+  double operator[](FreeParameter parameter) const { return found.choice[parameter]; }
 };
 
 Result found(const Scene &scene, StandIn &specimen) {
@@ -75,11 +75,11 @@ TEST(StrengthSearch, one_wanted_strength_is_met_in_two_trials) {
     StandIn specimen;
     const Result f = found(scene_of(not_given, goal * 1e6), specimen);
     EXPECT_EQ(f.found.trials, 2);
-    EXPECT_NEAR(f[Knob::tensile_strength], goal * 1e6 / 0.545, 1e-3 * goal * 1e6);
+    EXPECT_NEAR(f[FreeParameter::tensile_strength], goal * 1e6 / 0.545, 1e-3 * goal * 1e6);
     // What tension does not ask for stays as it was.
-    EXPECT_NEAR(f[Knob::shear_strength] / f[Knob::tensile_strength], 2.8, 1e-12);
-    EXPECT_EQ(f[Knob::moment_contribution], 0.3);
-    EXPECT_EQ(f[Knob::friction_angle], 45 * degree);
+    EXPECT_NEAR(f[FreeParameter::shear_strength] / f[FreeParameter::tensile_strength], 2.8, 1e-12);
+    EXPECT_EQ(f[FreeParameter::moment_contribution], 0.3);
+    EXPECT_EQ(f[FreeParameter::friction_angle], 45 * degree);
   }
 }
 
@@ -93,8 +93,8 @@ TEST(StrengthSearch, compressive_and_tensile_strength_are_met_whatever_the_slope
       EXPECT_NEAR(specimen.strength(TargetKind::tension, f.found.choice), 4e6, 0.02 * 4e6);
       EXPECT_LE(f.found.trials, 6);
       EXPECT_TRUE(f.missed.empty());
-      EXPECT_LE(f[Knob::shear_strength], 6 * f[Knob::tensile_strength] * (1 + 1e-12));
-      EXPECT_LE(f[Knob::moment_contribution], 0.3);
+      EXPECT_LE(f[FreeParameter::shear_strength], 6 * f[FreeParameter::tensile_strength] * (1 + 1e-12));
+      EXPECT_LE(f[FreeParameter::moment_contribution], 0.3);
     }
 }
 
@@ -141,8 +141,8 @@ TEST(StrengthSearch, a_triaxial_strength_is_met_beside_a_compressive_one_alone) 
   StandIn specimen;
   const Result f = found(scene_of(40e6, not_given, 50e6), specimen);
   EXPECT_NEAR(specimen.strength(TargetKind::strength_at_pressure, f.found.choice), 50e6, 0.02 * 50e6);
-  EXPECT_LT(f[Knob::friction_angle], 43 * degree); // 45 degree would give 52 MPa
-  EXPECT_EQ(f[Knob::moment_contribution], 0.3);
+  EXPECT_LT(f[FreeParameter::friction_angle], 43 * degree); // 45 degree would give 52 MPa
+  EXPECT_EQ(f[FreeParameter::moment_contribution], 0.3);
 }
 
 TEST(StrengthSearch, the_friction_angle_is_turned_within_its_bounds_alone) {
@@ -152,18 +152,18 @@ TEST(StrengthSearch, the_friction_angle_is_turned_within_its_bounds_alone) {
   scene.own<Calibrate>().strengths_high = 1;
   StandIn specimen;
   const Result without = found(scene, specimen);
-  EXPECT_EQ(without[Knob::friction_angle], 0);
+  EXPECT_EQ(without[FreeParameter::friction_angle], 0);
   EXPECT_FALSE(without.missed.empty());
   ASSERT_EQ(without.found.at_bounds.size(), 1u);
   EXPECT_NE(without.found.at_bounds[0].find("searched from 0.5 to 1)"), std::string::npos);
   scene.own<Calibrate>().friction_high = 40 * degree;
   const Result with = found(scene, specimen);
   EXPECT_TRUE(with.missed.empty());
-  EXPECT_GT(with[Knob::friction_angle], 5 * degree);
-  EXPECT_LE(with[Knob::friction_angle], 40 * degree);
+  EXPECT_GT(with[FreeParameter::friction_angle], 5 * degree);
+  EXPECT_LE(with[FreeParameter::friction_angle], 40 * degree);
   scene.bond.law = static_cast<int>(dem::BondLaws::place<dem::ElastoDamagePlastic>()); // has none
-  const std::vector<Knob> knobs = knobs_of(scene);
-  EXPECT_EQ(std::find(knobs.begin(), knobs.end(), Knob::friction_angle), knobs.end());
+  const std::vector<FreeParameter> free = parameters_of(scene);
+  EXPECT_EQ(std::find(free.begin(), free.end(), FreeParameter::friction_angle), free.end());
 }
 
 TEST(StrengthSearch, what_is_out_of_reach_is_told_after_few_trials) {
@@ -176,8 +176,8 @@ TEST(StrengthSearch, what_is_out_of_reach_is_told_after_few_trials) {
   EXPECT_NE(f.missed[1].find("against it pulls compressive strength"), std::string::npos) << f.missed[1];
   EXPECT_EQ(f.found.at_bounds.size(), 2u);
   EXPECT_LE(f.found.trials, 8);
-  EXPECT_NEAR(f[Knob::shear_strength] / f[Knob::tensile_strength], 6, 1e-6);
-  EXPECT_NEAR(f[Knob::moment_contribution], 0, 1e-6);
+  EXPECT_NEAR(f[FreeParameter::shear_strength] / f[FreeParameter::tensile_strength], 6, 1e-6);
+  EXPECT_NEAR(f[FreeParameter::moment_contribution], 0, 1e-6);
   const double compressive = specimen.strength(TargetKind::strength, f.found.choice),
                tensile = specimen.strength(TargetKind::tension, f.found.choice);
   EXPECT_NEAR(compressive / 160e6, 4e6 / tensile, 0.01);
@@ -190,7 +190,7 @@ TEST(StrengthSearch, bonds_too_strong_for_a_peak_are_weakened) {
   const Goals goals(scene);
   const Found f = search(scene, goals, test_of(goals, [&](const Goal &goal, const Choice &c) {
                            if (goal.target.kind == TargetKind::tension) ++asked;
-                           const bool strong = c[Knob::tensile_strength] > 9e6;
+                           const bool strong = c[FreeParameter::tensile_strength] > 9e6;
                            return strong ? not_given : specimen.strength(goal.target.kind, c);
                          }));
   EXPECT_NEAR(specimen.strength(TargetKind::strength, f.choice), 32e6, 0.02 * 32e6);
@@ -205,7 +205,7 @@ TEST(StrengthSearch, a_confined_specimen_without_a_peak_gets_less_friction) {
   const Goals goals(scene);
   const Found f = search(scene, goals, test_of(goals, [&](const Goal &goal, const Choice &c) {
                            const bool flows = goal.target.kind == TargetKind::strength_at_pressure &&
-                                              c[Knob::friction_angle] > 40 * degree;
+                                              c[FreeParameter::friction_angle] > 40 * degree;
                            return flows ? not_given : specimen.strength(goal.target.kind, c);
                          }));
   EXPECT_NEAR(specimen.strength(TargetKind::strength_at_pressure, f.choice), 42e6, 0.02 * 42e6);

@@ -82,7 +82,7 @@ TEST(closest_point, projection_onto_a_parallelogram_is_exact_to_round_off) {
   }
 }
 
-// A face in a coordinate plane returns that coordinate with all its bits, wherever the foot lies.
+// A face in a coordinate plane returns that coordinate with all its bits, wherever the closest point lies.
 TEST(closest_point, a_level_face_gives_its_height_to_the_last_bit) {
   Draw draw(2);
   for (int trial = 0; trial < 2000; ++trial) {
@@ -186,7 +186,8 @@ TEST_P(ClosestPointOfAnyQuad, is_nowhere_beaten_by_a_search) {
   }
 }
 
-// Where the foot lies inside, the way to it is square to the surface, to round-off of the second derivatives.
+// Where the closest point lies inside, the way to it is square to the surface, to round-off of the second
+// derivatives.
 TEST_P(ClosestPointOfAnyQuad, is_square_to_the_surface_on_the_face) {
   Draw draw(8);
   for (int trial = 0; trial < 400; ++trial) {

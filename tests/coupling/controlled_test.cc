@@ -62,7 +62,7 @@ TEST(controlled, a_share_is_told_as_the_stress_that_it_asks) {
 TEST(controlled, a_pressure_is_the_one_that_acts) {
   const Controlled told{"pressure", "lateral", "Pa", Controlled::around, false, 3e6, 2.971e6};
   expect_told(PressureTask(to(3e6, 1e-3)), at(1, 0, 2.971e6), at(1, 0, 2.969e6), told);
-  Handover from = after_pressure(3e6);
+  Transfer from = after_pressure(3e6);
   HoldPressureTask held(lateral);
   held.begin(Seen{}, 0, from);
   expect_told(held, at(1, 0, 2.971e6), at(1, 0, 2.969e6), told);

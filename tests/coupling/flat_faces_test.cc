@@ -1,4 +1,5 @@
-// Feet on the flat faces of a surface that only shifts: the closest point in general, the same in packs.
+// closest points on the flat faces of a surface that only shifts: the closest point in general, the same in
+// packs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,30 +54,30 @@ protected:
 };
 
 TEST_F(FlatFeet, are_the_closest_points_inside_flat_faces_and_nowhere_else) {
-  int feet = 0, flat = 0;
+  int closest = 0, flat = 0;
   for (int k = 0; k < count; ++k) {
     const Quad &q = quads[k];
     const Vector3 &c = centres[k];
     const ClosestPoint best = closest_point({q[0] - c, q[1] - c, q[2] - c, q[3] - c});
-    FlatFoot foot;
-    const bool found = find_foot(faces[k], c, foot);
+    FlatPoint closest;
+    const bool found = find_closest(faces[k], c, closest);
     flat += faces[k].flat != 0 ? 1 : 0;
     ASSERT_EQ(found, best.feature == Feature::face && faces[k].flat != 0) << "face " << k;
     if (!found) continue;
-    ++feet;
+    ++closest;
     const Vector3 normal = bilinear_normal(q, 0.5, 0.5);
-    ASSERT_NEAR(foot.u, best.u, 1e-12) << "face " << k;
-    ASSERT_NEAR(foot.v, best.v, 1e-12) << "face " << k;
-    ASSERT_NEAR(foot.distance, -dot(best.point, normal), 1e-14) << "face " << k;
+    ASSERT_NEAR(closest.u, best.u, 1e-12) << "face " << k;
+    ASSERT_NEAR(closest.v, best.v, 1e-12) << "face " << k;
+    ASSERT_NEAR(closest.distance, -dot(best.point, normal), 1e-14) << "face " << k;
     ASSERT_NEAR(norm(faces[k].normal - normal), 0, 1e-15) << "face " << k;
   }
-  EXPECT_GT(feet, 1000);
+  EXPECT_GT(closest, 1000);
   EXPECT_NEAR(flat, 0.9 * count, 0.01 * count); // round-off makes some planes uneven
 }
 
 TEST_F(FlatFeet, have_the_bits_of_single_ones_in_packs) {
   centres[7].y = std::numeric_limits<double>::quiet_NaN();
-  const auto same_bits = [](const FlatFoot &a, const FlatFoot &b) {
+  const auto same_bits = [](const FlatPoint &a, const FlatPoint &b) {
     return std::memcmp(&a, &b, sizeof a) == 0;
   };
   std::vector<Vector3> corners, turned_round(centres.size() + 1); // one to spare
@@ -84,7 +85,7 @@ TEST_F(FlatFeet, have_the_bits_of_single_ones_in_packs) {
     corners.push_back({0.1 * static_cast<double>(k % 7), -0.2 * static_cast<double>(k % 3), 1});
     turned_round[centres.size() - 1 - k] = corners[k] + centres[k];
   }
-  int feet = 0, none = 0;
+  int closest = 0, none = 0;
   for (const dem::InstructionSet set : dem::instruction_sets_here()) {
     for (std::size_t first = 0, many = 1; first < faces.size(); first += many, many = many % 32 + 1) {
       many = std::min(many, faces.size() - first);
@@ -97,21 +98,21 @@ TEST_F(FlatFeet, have_the_bits_of_single_ones_in_packs) {
       }
       SurfacePoints points;
       const std::uint32_t found =
-          kernels::find_flat_feet(set)(face, corner, turned_round.data(), at, many, points);
+          kernels::find_flat_closest_points(set)(face, corner, turned_round.data(), at, many, points);
       for (std::size_t k = 0; k < many; ++k) {
-        FlatFoot alone;
-        const bool expected = find_foot(
+        FlatPoint alone;
+        const bool expected = find_closest(
             faces[first + k], turned_round[static_cast<std::size_t>(at[k])] - corners[first + k], alone);
         ASSERT_EQ((found >> k & 1u) != 0, expected)
             << dem::name(set) << ", face " << first + k << ", " << many;
-        ++(expected ? feet : none);
+        ++(expected ? closest : none);
         if (!expected) continue;
         ASSERT_TRUE(same_bits({points.u[k], points.v[k], points.distance[k]}, alone))
             << dem::name(set) << ", face " << first + k;
       }
     }
   }
-  EXPECT_GT(feet, 1000);
+  EXPECT_GT(closest, 1000);
   EXPECT_GT(none, 1000);
 }
 

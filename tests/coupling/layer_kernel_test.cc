@@ -112,7 +112,7 @@ TEST(layer_kernel, contacts_in_packs_are_those_row_by_row) {
           SurfaceContact contact = frictional(friction, 0.8 * friction);
           contact.damping = damping;
           if (damping > 0) contact.face_compliance = compliances(plate(10e-3, 7).surface().faces.size());
-          contact.in_packs = false;
+          contact.in_lanes = false;
           const Outcome by_rows = dance(contact, only_shifts, rotation);
           EXPECT_GT(by_rows.touched, 2000u);
           EXPECT_GT(by_rows.idle, 1000u) << "some are passed over";
@@ -120,7 +120,7 @@ TEST(layer_kernel, contacts_in_packs_are_those_row_by_row) {
             EXPECT_GT(by_rows.slid, 500u);
             EXPECT_LT(by_rows.slid + 100, by_rows.touched);
           }
-          contact.in_packs = true;
+          contact.in_lanes = true;
           for (const dem::InstructionSet set : dem::instruction_sets_here()) {
             contact.instruction_set = set;
             const Outcome packs = dance(contact, only_shifts, rotation);

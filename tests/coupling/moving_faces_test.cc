@@ -32,10 +32,10 @@ Quad about(const Quad &q, const Vector3 &centre) {
 }
 
 // Centres within a fifth of the face on both sides of it, over it and beyond its rim.
-TEST(moving_faces, a_foot_is_the_closest_point_of_a_warped_face) {
+TEST(moving_faces, the_point_found_is_the_closest_of_a_warped_face) {
   std::mt19937 engine(3);
   std::uniform_real_distribution<double> along(-0.3, 1.3), off(-0.2, 0.2);
-  int feet[2] = {}, inside[2] = {}; // on faces warped a little and much
+  int closest[2] = {}, inside[2] = {}; // on faces warped a little and much
   for (int trial = 0; trial < 20000; ++trial) {
     const int much = trial % 2;
     const Quad q = strained_square(much ? 0.15 : 0.02, engine);
@@ -47,23 +47,23 @@ TEST(moving_faces, a_foot_is_the_closest_point_of_a_warped_face) {
     const ClosestPoint best = closest_point(about(q, centre));
     EXPECT_LE(least_distance_squared(face, centre), best.distance_squared * (1 + 1e-12));
     if (best.feature == Feature::face) ++inside[much];
-    Foot foot;
-    if (!find_foot(face, centre, foot)) continue;
-    ++feet[much];
+    FacePoint closest;
+    if (!find_closest(face, centre, closest)) continue;
+    ++closest[much];
     ASSERT_EQ(best.feature, Feature::face);
-    ASSERT_NEAR(norm(foot.out), std::sqrt(best.distance_squared), 4e-15);
-    ASSERT_NEAR(foot.u, best.u, 1e-11);
-    ASSERT_NEAR(foot.v, best.v, 1e-11);
-    ASSERT_LT(norm(cross(foot.out, foot.normal)), 1e-11);
-    ASSERT_NEAR(norm(foot.normal), 1, 1e-15);
+    ASSERT_NEAR(norm(closest.out), std::sqrt(best.distance_squared), 4e-15);
+    ASSERT_NEAR(closest.u, best.u, 1e-11);
+    ASSERT_NEAR(closest.v, best.v, 1e-11);
+    ASSERT_LT(norm(cross(closest.out, closest.normal)), 1e-11);
+    ASSERT_NEAR(norm(closest.normal), 1, 1e-15);
   }
   EXPECT_GT(inside[0], 3000);
-  EXPECT_EQ(feet[0], inside[0]);
-  EXPECT_GT(feet[1], 0.85 * inside[1]); // the rest goes the general way
+  EXPECT_EQ(closest[0], inside[0]);
+  EXPECT_GT(closest[1], 0.85 * inside[1]); // the rest goes the general way
 }
 
-// Far off a face that is much warped there are several feet: none is given there but the nearest.
-TEST(moving_faces, a_foot_far_off_is_given_where_it_is_the_only_one) {
+// Far off a face that is much warped there are several closest points: none is given there but the nearest.
+TEST(moving_faces, a_closest_point_far_off_is_given_where_it_is_the_only_one) {
   std::mt19937 engine(13);
   std::uniform_real_distribution<double> along(-0.3, 1.3), off(-3, 3);
   int given = 0, refused = 0;
@@ -74,41 +74,41 @@ TEST(moving_faces, a_foot_far_off_is_given_where_it_is_the_only_one) {
     const Vector3 centre =
         w[0] * q[0] + w[1] * q[1] + w[2] * q[2] + w[3] * q[3] + off(engine) * bilinear_normal(q, 0.5, 0.5);
     const ClosestPoint best = closest_point(about(q, centre));
-    Foot foot;
-    const bool found = find_foot(face, centre, foot);
+    FacePoint closest;
+    const bool found = find_closest(face, centre, closest);
     const double above = std::abs(dot(centre - face.corner, face.normal));
-    if (above > single_foot_within(q, face.normal) - 2 * face.half.z) {
+    if (above > single_closest_within(q, face.normal) - 2 * face.half.z) {
       ++refused;
       ASSERT_FALSE(found) << "trial " << trial;
     }
     if (!found) continue;
     ++given;
     ASSERT_EQ(best.feature, Feature::face) << "trial " << trial;
-    ASSERT_NEAR(norm(foot.out), std::sqrt(best.distance_squared), 1e-13) << "trial " << trial;
+    ASSERT_NEAR(norm(closest.out), std::sqrt(best.distance_squared), 1e-13) << "trial " << trial;
   }
   EXPECT_GT(given, 300);
   EXPECT_GT(refused, 3000);
 }
 
 // z = w x y on a unit square about the origin, seen from height h over its middle: along a diagonal the
-// square of the distance is s^2 + (w s^2 / 2 - h)^2, with two feet from h = 1 / w on. The bound by the
-// formula at face_of_corners.h, whose edges are 1 + w^2 / 4 and whose determinant is 1.
-TEST(moving_faces, a_saddle_has_a_single_foot_up_to_a_known_height) {
+// square of the distance is s^2 + (w s^2 / 2 - h)^2, with two closest points from h = 1 / w on. The bound by
+// the formula at face_of_corners.h, whose edges are 1 + w^2 / 4 and whose determinant is 1.
+TEST(moving_faces, a_saddle_has_a_single_closest_point_up_to_a_known_height) {
   for (const double w : {0.01, 0.1, 0.3, 0.8}) {
     const double z = w / 4, inverse = std::sqrt(2 * (1 + w * w / 4));
     const Quad q = {{{-0.5, -0.5, z}, {0.5, -0.5, -z}, {0.5, 0.5, z}, {-0.5, 0.5, -z}}};
     const double expected = 0.5 / (w * (1 + w * inverse) * inverse * inverse);
-    const double within = single_foot_within(q, {0, 0, 1});
+    const double within = single_closest_within(q, {0, 0, 1});
     EXPECT_NEAR(within / expected, 1, 1e-12) << "w " << w;
-    EXPECT_LT(within, 1 / w) << "two feet, w " << w;
+    EXPECT_LT(within, 1 / w) << "two closest, w " << w;
     const MovingFace face = moving_face(q);
     EXPECT_NEAR(face.half.z, z, 1e-11) << "w " << w;
-    EXPECT_NEAR((face.single_foot + w / 2) / expected, 1, 1e-9) << "w " << w;
+    EXPECT_NEAR((face.single_closest + w / 2) / expected, 1, 1e-9) << "w " << w;
   }
 }
 
-// Every instruction set and every number of feet in a call: the bits of one foot alone.
-TEST(moving_faces, feet_in_packs_are_those_of_single_centres) {
+// Every instruction set and every number of closest points in a call: the bits of one closest point alone.
+TEST(moving_faces, closest_points_in_lanes_are_those_of_single_centres) {
   std::mt19937 engine(11);
   std::uniform_real_distribution<double> along(-0.2, 1.2), off(-0.3, 0.3);
   std::vector<MovingFace> faces;
@@ -121,14 +121,14 @@ TEST(moving_faces, feet_in_packs_are_those_of_single_centres) {
                       off(engine) * bilinear_normal(q, 0.5, 0.5));
   }
   centres[7].x = std::numeric_limits<double>::quiet_NaN();
-  const auto bits_of = [](const Foot &foot) {
-    std::array<char, sizeof(Foot)> bytes;
-    std::memcpy(bytes.data(), &foot, sizeof foot);
+  const auto bits_of = [](const FacePoint &closest) {
+    std::array<char, sizeof(FacePoint)> bytes;
+    std::memcpy(bytes.data(), &closest, sizeof closest);
     return bytes;
   };
   std::vector<Vector3> turned_round(centres.rbegin(), centres.rend());
   turned_round.emplace_back(); // to spare
-  int feet = 0;
+  int closest = 0;
   for (const dem::InstructionSet set : dem::instruction_sets_here()) {
     for (std::size_t first = 0, count = 1; first < faces.size(); first += count, count = count % 32 + 1) {
       count = std::min(count, faces.size() - first);
@@ -139,16 +139,17 @@ TEST(moving_faces, feet_in_packs_are_those_of_single_centres) {
         at[k] = static_cast<int>(faces.size() - 1 - first - k);
       }
       SurfacePoints points;
-      const std::uint32_t found = kernels::find_feet(set)(face, turned_round.data(), at, count, points);
+      const std::uint32_t found =
+          kernels::find_closest_points(set)(face, turned_round.data(), at, count, points);
       for (std::size_t k = 0; k < count; ++k) {
-        Foot alone;
-        const bool expected = find_foot(faces[first + k], centres[first + k], alone);
+        FacePoint alone;
+        const bool expected = find_closest(faces[first + k], centres[first + k], alone);
         ASSERT_EQ((found >> k & 1u) != 0, expected)
             << dem::name(set) << ", face " << first + k << ", " << count;
         if (!expected) continue;
-        ++feet;
+        ++closest;
         const SurfacePoint p = points.at(k);
-        const Foot packed{p.local.u, p.local.v, -p.local.point, p.along_u, p.along_v, p.normal};
+        const FacePoint packed{p.local.u, p.local.v, -p.local.point, p.along_u, p.along_v, p.normal};
         ASSERT_EQ(bits_of(packed), bits_of(alone)) << dem::name(set) << ", face " << first + k;
         ASSERT_EQ(p.local.weights, bilinear_weights(alone.u, alone.v))
             << dem::name(set) << ", face " << first + k;
@@ -158,7 +159,7 @@ TEST(moving_faces, feet_in_packs_are_those_of_single_centres) {
       }
     }
   }
-  EXPECT_GT(feet, 1500);
+  EXPECT_GT(closest, 1500);
 }
 
 // The same of what faces are set up from: all of it, warped, flat, folded over and without area.
@@ -194,21 +195,21 @@ TEST(moving_faces, in_packs_are_those_of_single_ones) {
       const bool asked = k % 7 != 0;
       const MovingFace alone = asked ? moving_face({at(0), at(1), at(2), at(3)}) : MovingFace{};
       ASSERT_EQ(bits_of(faces[k]), bits_of(alone)) << "face " << k << ", set " << static_cast<int>(set);
-      if (asked) ++(alone.single_foot > 0 ? single : none);
+      if (asked) ++(alone.single_closest > 0 ? single : none);
     }
   }
   EXPECT_GT(single, 20);
   EXPECT_GT(none, 20);
 }
 
-TEST(moving_faces, faces_without_area_have_a_box_and_no_foot) {
+TEST(moving_faces, faces_without_area_have_a_box_and_no_closest_point) {
   const Vector3 o = {1, 2, 3}, a = {0.5, 0, 0}, b = {0, 0.25, 0};
   for (const Quad &q : {Quad{o, o, o, o}, Quad{o, o + a, o + 0.5 * a, o + 0.25 * a}, Quad{o, o + a, o, o + a},
                         Quad{o, o + b, o + b, o}}) {
     const MovingFace face = moving_face(q);
     for (const Vector3 &centre : {o, o + a + b, o - b, Vector3{}}) {
-      Foot foot;
-      EXPECT_FALSE(find_foot(face, centre, foot));
+      FacePoint closest;
+      EXPECT_FALSE(find_closest(face, centre, closest));
       EXPECT_LE(least_distance_squared(face, centre),
                 closest_point(about(q, centre)).distance_squared * (1 + 1e-12));
     }

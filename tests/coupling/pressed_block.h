@@ -68,8 +68,8 @@ struct PressedBlock {
 
   // Force (N) between both at rest, with the sphere `approach` (m) deep at (x, y), measured from the block's
   // face without load. The load goes a part of the way to the force that its own indentation leaves, until
-  // that is within 1e-4 of it. In the valley of its indentation the foot of a sphere changes sides, and only
-  // the size of the force comes to rest.
+  // that is within 1e-4 of it. In the valley of its indentation the closest point of a sphere changes sides,
+  // and only the size of the force comes to rest.
   double press(double x, double y, double approach) {
     constexpr double part = 0.6;
     particles.position[0] = {x, y, radius - approach};

@@ -144,8 +144,8 @@ TEST(pressed_block, is_a_plane_to_a_sphere_where_it_is_evenly_strained) {
   for (int k = 0; k <= 600; ++k) {
     const double s = (k / 300.0 - 1) * 2.5 * radius;
     // Through vertices, then along an edge.
-    const Vector3 foot = k % 2 == 0 ? s * along_x + s * along_y : s * along_x;
-    pressed.particles.position[0] = foot + (radius - overlap) * n;
+    const Vector3 closest = k % 2 == 0 ? s * along_x + s * along_y : s * along_x;
+    pressed.particles.position[0] = closest + (radius - overlap) * n;
     pressed.particles.force[0] = {};
     pressed.block.clear_loads();
     pressed.layer.make_list(pressed.particles, pressed.block);

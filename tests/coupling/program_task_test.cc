@@ -192,7 +192,7 @@ TEST(pressure, follows_the_deviator_with_its_lag_and_is_never_negative) {
   PressureTask::Parameters p = to(10e6, 0);
   p.path = -1.0 / 3, p.lag = 50 * dt;
   PressureTask path(p);
-  Handover from = after_pressure(10e6);
+  Transfer from = after_pressure(10e6);
   path.begin(seen, 0, from);
   const auto asked = [&] {
     Commands all(3);
@@ -221,7 +221,7 @@ TEST(pressure, follows_the_deviator_with_its_lag_and_is_never_negative) {
 
 TEST(pressure, rises_from_what_it_finds_and_follows_a_share) {
   Seen seen;
-  Handover from = after_pressure(3e6);
+  Transfer from = after_pressure(3e6);
   PressureTask up(to(7e6, 1e-3));
   up.begin(seen, 1e-3, from);
   Commands all(3);

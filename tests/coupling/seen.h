@@ -82,8 +82,8 @@ inline StressTask::Parameters stress_of(double value, const PlatensOfAxis &plate
   return p;
 }
 // What a stage before it asked of the lateral surface, Pa.
-inline Handover after_pressure(double pressure) {
-  Handover from;
+inline Transfer after_pressure(double pressure) {
+  Transfer from;
   from.asked.resize(3);
   from.asked[lateral].pressure = pressure;
   return from;

@@ -13,8 +13,8 @@
 namespace platen::coupling {
 namespace {
 
-// A column of masses on springs with a fixed foot, pressed by a platen on top: the specimen as the servo
-// feels it.
+// A column of masses on springs with a fixed closest point, pressed by a platen on top: the specimen as the
+// servo feels it.
 struct Column {
   int n = 30;
   double k_platen = 1e6, k = 1e6, m = 1e-5, contact_damping = 0, inner_damping = 0.02, gap = 0;

@@ -44,7 +44,7 @@ protected:
     Bonds &b = *model.bonds;
     std::vector<BondBreak> breaks;
     const InstructionSet set = best_instruction_set();
-    const ExactSum by_dashpots = GetParam().interfaces ? compute_interface_forces(p, b, set, {}, dt, breaks)
+    const ExactSum by_dashpots = GetParam().interfaces ? compute_cohesive_forces(p, b, set, {}, dt, breaks)
                                                        : compute_bond_forces(p, b, set, {}, dt, breaks);
     if (work != nullptr) *work = by_dashpots;
     for (std::size_t block = 0; block < b.blocks.blocks(); ++block)
@@ -135,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(bonds, BondDashpots, testing::ValuesIn(whole), name_of)
 INSTANTIATE_TEST_SUITE_P(interfaces, BondDashpots,
                          testing::Values(Case{"interfaces", false, false, true},
                                          Case{"turning_interfaces", true, false, true},
-                                         Case{"bending_interfaces", true, true, true}),
+                                         Case{"bending_cohesive", true, true, true}),
                          name_of);
 
 } // namespace

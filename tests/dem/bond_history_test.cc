@@ -11,17 +11,17 @@ namespace {
 using namespace examples;
 
 // The pair spins about its line by a radian, as one: shear goes round with it, the right way.
-TEST(bond_history, shear_of_an_interface_spins_with_the_pair) {
+TEST(bond_history, shear_of_a_cohesive_bond_spins_with_the_pair) {
   ElastoDamagePlastic::Parameters p;
   p.poisson_ratio = .2;
   const ElastoDamagePlastic law(p); // never breaks
   const double length = .01, aside = 1e-6;
-  const InterfaceGeometry<double> geometry{length, .5, 28e9 / length, 5e-5};
+  const CohesiveGeometry<double> geometry{length, .5, 28e9 / length, 5e-5};
   const Triple<double> distance{0, 0, length}, none{0, 0, 0};
   for (const double angle : {1., -1., 2.}) {
-    InterfaceState<double> state{0, 0, 0, {aside, 0, 0}, {0, 0, 0}, 0};
+    CohesiveState<double> state{0, 0, 0, {aside, 0, 0}, {0, 0, 0}, 0};
     const double before = law.response(state, geometry, distance).shear.x;
-    InterfaceResponse<double> now{};
+    CohesiveResponse<double> now{};
     constexpr int steps = 1000; // Cayley's form is off by a twelfth of the cube of an angle
     for (int k = 0; k < steps; ++k)
       now = law(state, geometry, {distance, none, none, angle / steps * length});

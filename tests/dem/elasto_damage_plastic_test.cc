@@ -22,7 +22,7 @@ struct Interface : OneBond<ElastoDamagePlastic> {
 };
 
 TEST(ElastoDamagePlastic, tension_softens_along_a_line_to_its_end) {
-  Interface pair(interface_of_concrete());
+  Interface pair(cohesive_bond_of_concrete());
   const double limit = pair.opening_limit();
   pair.move({0, 0, 0.5 * limit}, 7);
   EXPECT_NEAR(pair.normal(), 2.5e6, 2.5e-4);
@@ -38,7 +38,7 @@ TEST(ElastoDamagePlastic, tension_softens_along_a_line_to_its_end) {
 }
 
 TEST(ElastoDamagePlastic, tension_dissipates_the_area_under_its_curve) {
-  Interface pair(interface_of_concrete());
+  Interface pair(cohesive_bond_of_concrete());
   const double limit = pair.opening_limit(), whole = 0.5 * 5e6 * 1.2 * limit * pair.geometry.area;
   pair.move({0, 0, limit}, 10);
   pair.move({0, 0, 0.1 * limit}, 10);
@@ -51,7 +51,7 @@ TEST(ElastoDamagePlastic, tension_dissipates_the_area_under_its_curve) {
 
 // The softening triangle is the energy given, whatever the length of the pair.
 TEST(ElastoDamagePlastic, a_given_fracture_energy_does_not_depend_on_the_size_of_spheres) {
-  ElastoDamagePlastic::Parameters p = interface_of_concrete();
+  ElastoDamagePlastic::Parameters p = cohesive_bond_of_concrete();
   p.fracture_energy_tension = 2; // J/m^2
   p.fracture_energy_shear = 20;
   for (const double size : {0.5, 1.0, 2.0}) {
@@ -70,7 +70,7 @@ TEST(ElastoDamagePlastic, a_given_fracture_energy_does_not_depend_on_the_size_of
 }
 
 TEST(ElastoDamagePlastic, damaged_tension_unloads_through_the_origin_and_comes_back) {
-  Interface pair(interface_of_concrete());
+  Interface pair(cohesive_bond_of_concrete());
   const double limit = pair.opening_limit();
   pair.move({0, 0, 1.1 * limit}, 11); // D = 1/2
   const double top = pair.normal(), lost = pair.state.dissipated;
@@ -85,7 +85,7 @@ TEST(ElastoDamagePlastic, damaged_tension_unloads_through_the_origin_and_comes_b
 
 // Breakpoints of the paper's concrete: strains 7.14286e-4, 3.39286e-3, 1.410714e-2 at 20, 45, 70 MPa.
 TEST(ElastoDamagePlastic, closing_yields_along_three_branches) {
-  Interface pair(interface_of_concrete());
+  Interface pair(cohesive_bond_of_concrete());
   const double strains[] = {7.142857142857143e-4, 3.392857142857143e-3, 1.4107142857142857e-2};
   const double stresses[] = {20e6, 45e6, 70e6};
   double before = 0;
@@ -99,7 +99,7 @@ TEST(ElastoDamagePlastic, closing_yields_along_three_branches) {
 }
 
 TEST(ElastoDamagePlastic, closing_unloads_elastically_and_keeps_its_plastic_strain) {
-  Interface pair(interface_of_concrete());
+  Interface pair(cohesive_bond_of_concrete());
   const double kink = 20e6 / 28e9; // strain at which yield begins; steps end there, so that work is exact
   pair.move({0, 0, -kink * length}, 10);
   pair.move({0, 0, -(2e-3 - kink) * length}, 10);
@@ -121,7 +121,7 @@ TEST(ElastoDamagePlastic, closing_unloads_elastically_and_keeps_its_plastic_stra
 
 // Steps that end at the branches' ends, so that the trapezoid is exact.
 TEST(ElastoDamagePlastic, plastic_work_is_the_area_between_curve_and_unloading) {
-  Interface pair(interface_of_concrete());
+  Interface pair(cohesive_bond_of_concrete());
   double at = 0;
   for (const double strain : {7.142857142857143e-4, 3.392857142857143e-3, 1.4107142857142857e-2, 0.02}) {
     pair.move({0, 0, -(strain - at) * length});
@@ -132,7 +132,7 @@ TEST(ElastoDamagePlastic, plastic_work_is_the_area_between_curve_and_unloading) 
 }
 
 TEST(ElastoDamagePlastic, shear_strength_grows_with_compression_and_softens_to_friction) {
-  Interface pair(interface_of_concrete());
+  Interface pair(cohesive_bond_of_concrete());
   const double pressing = 10e6, strength = 16e6 + 0.9 * pressing, residual = 0.25 * pressing;
   pair.move({0, 0, -pressing / pair.geometry.normal_stiffness});
   // Across, at a distance that stays: by rotations.
@@ -166,7 +166,7 @@ TEST(ElastoDamagePlastic, shear_strength_grows_with_compression_and_softens_to_f
 // Work, stored and dissipated energy of a sliding interface under constant pressure, by fine steps: the
 // trapezoid misses the kinks by steps^-2.
 TEST(ElastoDamagePlastic, the_energy_of_sliding_under_pressure_is_accounted_for) {
-  Interface pair(interface_of_concrete());
+  Interface pair(cohesive_bond_of_concrete());
   const double pressing = 10e6, strength = 16e6 + 0.9 * pressing;
   pair.move({0, 0, -pressing / pair.geometry.normal_stiffness});
   const double limit = strength / pair.shear_stiffness(), start = pair.now.energy;
@@ -184,7 +184,7 @@ TEST(ElastoDamagePlastic, the_energy_of_sliding_under_pressure_is_accounted_for)
 TEST(ElastoDamagePlastic, what_a_step_takes_is_its_work_less_what_it_stores) {
   for (const FailureLine line : {FailureLine::uncoupled, FailureLine::coupled})
     for (const double normal : {5.5e6, -20e6}) { // Pa, up to here, without change of sign
-      ElastoDamagePlastic::Parameters p = interface_of_concrete();
+      ElastoDamagePlastic::Parameters p = cohesive_bond_of_concrete();
       p.failure_line = line;
       p.softening_tension = 1;
       p.compression_limits = p.compression_slopes = {}; // yield adds its own closed form
@@ -209,7 +209,7 @@ TEST(ElastoDamagePlastic, what_a_step_takes_is_its_work_less_what_it_stores) {
 
 // Without pressure the energy is the law's alone: 1/2 tau_f u^l (1 + delta).
 TEST(ElastoDamagePlastic, pure_shear_dissipates_the_area_under_its_curve) {
-  ElastoDamagePlastic::Parameters p = interface_of_concrete();
+  ElastoDamagePlastic::Parameters p = cohesive_bond_of_concrete();
   Interface pair(p);
   const double limit = 16e6 / pair.shear_stiffness(), whole = 0.5 * 16e6 * 2 * limit * pair.geometry.area;
   double work = 0;
@@ -225,7 +225,7 @@ TEST(ElastoDamagePlastic, pure_shear_dissipates_the_area_under_its_curve) {
 // shares add up to one; the energy of a straight path is its area.
 TEST(ElastoDamagePlastic, the_coupled_line_adds_up_tension_and_shear) {
   for (const FailureLine line : {FailureLine::uncoupled, FailureLine::coupled}) {
-    ElastoDamagePlastic::Parameters p = interface_of_concrete();
+    ElastoDamagePlastic::Parameters p = cohesive_bond_of_concrete();
     p.failure_line = line;
     p.softening_shear = p.softening_tension;
     Interface pair(p);
@@ -257,7 +257,7 @@ TEST(ElastoDamagePlastic, the_coupled_line_adds_up_tension_and_shear) {
 TEST(ElastoDamagePlastic, the_coupled_line_is_the_uncoupled_one_in_compression) {
   double damage[2];
   for (int k = 0; k < 2; ++k) {
-    ElastoDamagePlastic::Parameters p = interface_of_concrete();
+    ElastoDamagePlastic::Parameters p = cohesive_bond_of_concrete();
     p.failure_line = k == 0 ? FailureLine::uncoupled : FailureLine::coupled;
     Interface pair(p);
     pair.move({0, 0, -1e-6});
@@ -272,7 +272,7 @@ TEST(ElastoDamagePlastic, the_coupled_line_is_the_uncoupled_one_in_compression) 
 // not with what is round-off, nor with a pressure.
 TEST(ElastoDamagePlastic, the_coupled_line_begins_with_the_first_tension_that_is_no_round_off) {
   const auto tension_damage = [](double share) { // of the tensile strength, positive in tension
-    ElastoDamagePlastic::Parameters p = interface_of_concrete();
+    ElastoDamagePlastic::Parameters p = cohesive_bond_of_concrete();
     p.failure_line = FailureLine::coupled;
     Interface pair(p);
     const Triple<double> opened{0, 0, share * pair.opening_limit()};
@@ -289,7 +289,7 @@ TEST(ElastoDamagePlastic, the_coupled_line_begins_with_the_first_tension_that_is
 }
 
 TEST(ElastoDamagePlastic, history_turns_with_the_pair) {
-  Interface pair(interface_of_concrete());
+  Interface pair(cohesive_bond_of_concrete());
   pair.impose({0, 0, 0}, {3e-6, 1e-6, 0}, 0);
   const double before = pair.shear(), stored = pair.now.energy;
   // Two turns about x, then two about the pair's own axis: nothing slides.
@@ -322,7 +322,7 @@ TEST(ElastoDamagePlastic, strengths_that_are_never_reached_do_no_work) {
 }
 
 TEST(ElastoDamagePlastic, a_strength_factor_scales_both_strengths_and_keeps_fracture_energies) {
-  ElastoDamagePlastic::Parameters p = interface_of_concrete();
+  ElastoDamagePlastic::Parameters p = cohesive_bond_of_concrete();
   p.fracture_energy_tension = 2;
   Interface pair(p);
   pair.geometry.strength_factor = 1.5;

@@ -4,19 +4,19 @@
 
 #include "base/pi.h"
 #include "base/vector3.h"
-#include "dem/laws/interface_moments.h"
+#include "dem/laws/cohesive_moments.h"
 #include "dem/laws/yielding_parallel_bond.h"
 #include "tests/dem/examples.h"
 
 namespace platen::dem::examples {
 
 // What acts by the law, and moves the state on.
-inline InterfaceResponse<double> act(const ElastoDamagePlastic &law, InterfaceState<double> &s,
-                                     const InterfaceGeometry<double> &g, const InterfaceMotion<double> &m) {
-  return law.parameters.moments ? BendingInterface{law}(s, g, m) : law(s, g, m);
+inline CohesiveResponse<double> act(const ElastoDamagePlastic &law, CohesiveState<double> &s,
+                                    const CohesiveGeometry<double> &g, const CohesiveMotion<double> &m) {
+  return law.parameters.moments ? BendingCohesive{law}(s, g, m) : law(s, g, m);
 }
-inline InterfaceResponse<double> act(const YieldingParallelBond &law, YieldingParallelBond::State<double> &s,
-                                     const InterfaceGeometry<double> &g, const InterfaceMotion<double> &m) {
+inline CohesiveResponse<double> act(const YieldingParallelBond &law, YieldingParallelBond::State<double> &s,
+                                    const CohesiveGeometry<double> &g, const CohesiveMotion<double> &m) {
   return law(s, g, m);
 }
 
@@ -24,10 +24,10 @@ inline InterfaceResponse<double> act(const YieldingParallelBond &law, YieldingPa
 template <class Law>
 struct OneBond {
   Law law;
-  InterfaceGeometry<double> geometry;
+  CohesiveGeometry<double> geometry;
   typename Law::template State<double> state{};
-  InterfaceMotion<double> pose;
-  InterfaceResponse<double> now{};
+  CohesiveMotion<double> pose;
+  CohesiveResponse<double> now{};
   double work = 0; // J, by the trapezoid over each step: exact along straight lines
 
   OneBond(const Law &of, double young, double length, double bond_radius)
@@ -44,7 +44,7 @@ struct OneBond {
     const double part = 1.0 / steps;
     for (int k = 0; k < steps; ++k) {
       begin_step();
-      const InterfaceResponse<double> before = now;
+      const CohesiveResponse<double> before = now;
       pose.travelled = scale(part, by), pose.turned_i = scale(part, turn_i),
       pose.turned_j = scale(part, turn_j);
       pose.distance = pose.distance + pose.travelled;
@@ -81,7 +81,7 @@ protected:
 };
 
 // Concrete of Onate et al. 2015, table 5.
-inline ElastoDamagePlastic::Parameters interface_of_concrete() {
+inline ElastoDamagePlastic::Parameters cohesive_bond_of_concrete() {
   ElastoDamagePlastic::Parameters p;
   p.poisson_ratio = 0.2;
   p.tensile_strength = 5e6, p.shear_strength = 16e6;

@@ -102,7 +102,7 @@ TEST(SoftSpheres, go_where_a_plain_loop_over_all_pairs_takes_them) {
   Random random(3);
   std::vector<Vector3> centre;
   std::vector<double> factor;
-  while (centre.size() < 150) { // nine packs of sixteen and six more
+  while (centre.size() < 150) { // nine groups of sixteen and six more
     const Vector3 p{random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(0, 12)};
     if (wall_clearance(shape, p) < 0.5) continue;
     centre.push_back(p), factor.push_back(random.uniform(0.7, 1.3));
@@ -223,9 +223,9 @@ struct Columns {
   float fastest = 0;
 };
 
-// Three packs of spheres anywhere, with one kernel set.
+// Three groups of spheres anywhere, with one kernel set.
 Columns by_kernels(kernels::SoftForces add_forces, kernels::SoftDrift drift) {
-  constexpr std::size_t n = 3 * kernels::soft_pack;
+  constexpr std::size_t n = 3 * kernels::soft_group;
   Columns c;
   Random random(8);
   const auto row = [](const Vector3 &v, double w) {
@@ -242,7 +242,7 @@ Columns by_kernels(kernels::SoftForces add_forces, kernels::SoftDrift drift) {
   }
   c.force.resize(n);
   std::vector<SoftPartners> blocks;
-  find_soft_partners(balls, n - 3, blocks); // of the last pack not all
+  find_soft_partners(balls, n - 3, blocks); // of the last group not all
   const kernels::SoftColumns columns{c.way.data(), c.velocity.data(), c.force.data(), c.outside.data()};
   c.sums = add_forces(columns, blocks[0].lists(), 0.37F);
   c.fastest = drift(columns, {0.37F, 0.09F, 0.2F}, 0, n);

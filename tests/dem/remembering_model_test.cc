@@ -25,14 +25,14 @@ struct LawCase {
 void PrintTo(const LawCase &law, std::ostream *out) {
   *out << law.name;
 }
-ModelSettings bending_interfaces() {
+ModelSettings bending_cohesive() {
   ModelSettings s = interfaces();
   auto &law = std::get<ElastoDamagePlastic::Parameters>(*s.bond);
   law.moments = true, law.moment_contribution = 0.3;
   return s;
 }
 const LawCase laws[] = {{"interfaces", interfaces, 1.0, 600, 2e-2, 1.5e-3, .01},
-                        {"bending_interfaces", bending_interfaces, 1.5, 600, 2e-2, 2e-3, 0},
+                        {"bending_cohesive", bending_cohesive, 1.5, 600, 2e-2, 2e-3, 0},
                         {"yielding_parallel_bonds", yielding_bonds, 1.5, 900, 2e-2, 1.5e-3, .001}};
 
 bool needs_orientations(const ElastoDamagePlastic &law) {
@@ -41,7 +41,7 @@ bool needs_orientations(const ElastoDamagePlastic &law) {
 bool needs_orientations(const YieldingParallelBond &) {
   return true;
 }
-InterfaceGeometry<double> geometry(const Bonds &b, std::size_t k) {
+CohesiveGeometry<double> geometry(const Bonds &b, std::size_t k) {
   return {b.rest_length[k],
           b.lever[k],
           b.normal_stiffness[k],
@@ -51,10 +51,10 @@ InterfaceGeometry<double> geometry(const Bonds &b, std::size_t k) {
           b.bond_radius[k]};
 }
 // With the arms in the middle of the step, where the law needs orientations.
-InterfaceMotion<double> motion(const Particles &p, const Bonds &b, std::size_t k, double dt, bool in_middle) {
+CohesiveMotion<double> motion(const Particles &p, const Bonds &b, std::size_t k, double dt, bool in_middle) {
   const auto i = static_cast<std::size_t>(b.first[k]), j = static_cast<std::size_t>(b.second[k]);
   const Vector3 d = p.position[j] - p.position[i], v = p.velocity[j] - p.velocity[i];
-  InterfaceMotion<double> m{triple(d), triple(dt * v), triple(dt * v), 0, {1, 0, 0, 0}, {1, 0, 0, 0}, {}, {}};
+  CohesiveMotion<double> m{triple(d), triple(dt * v), triple(dt * v), 0, {1, 0, 0, 0}, {1, 0, 0, 0}, {}, {}};
   if (!p.has_rotation()) return m;
   const Vector3 wi = (*p.angular_velocity)[i], wj = (*p.angular_velocity)[j];
   const Vector3 arm = in_middle ? d - 0.5 * dt * v : d;
@@ -97,8 +97,8 @@ BondTotals by_rows(const Particles &p, const Bonds &b) {
     sum.force += root(dot(r.force, r.force));
     of_remembering(b.law, [&](const auto &law) {
       const auto s = b.memory<typename std::decay_t<decltype(law)>::template State<double>>(k);
-      InterfaceGeometry<double> g{b.rest_length[k], b.lever[k], b.normal_stiffness[k],
-                                  pi * b.bond_radius[k] * b.bond_radius[k]};
+      CohesiveGeometry<double> g{b.rest_length[k], b.lever[k], b.normal_stiffness[k],
+                                 pi * b.bond_radius[k] * b.bond_radius[k]};
       (law.damage_of(s) >= 1 ? sum.friction : sum.damage) += s.dissipated;
       sum.plastic += law.plastic_work(s, g);
     });
@@ -150,7 +150,7 @@ protected:
   }
 
 private:
-  static Triple<double> shear_of(const InterfaceState<double> &s) { return s.shear; }
+  static Triple<double> shear_of(const CohesiveState<double> &s) { return s.shear; }
   static Triple<double> shear_of(const YieldingParallelBond::State<double> &s) { return s.slider; }
 };
 
@@ -186,7 +186,7 @@ TEST_P(RememberingKernels, and_sums_follow_the_law_on_every_instruction_set_and_
     // The next forces, sphere by sphere.
     model.begin_step(dt);
     std::vector<BondBreak> breaks;
-    compute_interface_forces(p, b, set, {}, dt, breaks);
+    compute_cohesive_forces(p, b, set, {}, dt, breaks);
     for (std::size_t block = 0; block < b.blocks.blocks(); ++block)
       return_ghosts(p, b.blocks, block);
     const Loads by_law = bond_loads(p, b);
@@ -270,8 +270,8 @@ TEST_P(RememberingModel, threads_do_not_change_a_bit) {
 INSTANTIATE_TEST_SUITE_P(laws, RememberingModel, testing::ValuesIn(laws),
                          [](const testing::TestParamInfo<LawCase> &law) { return law.param.name; });
 
-TEST(InterfaceModel, interfaces_that_bend_differ_from_those_that_do_not) {
-  EXPECT_NE(shaken_to_pieces(interfaces(), 1), shaken_to_pieces(bending_interfaces(), 1));
+TEST(CohesiveModel, interfaces_that_bend_differ_from_those_that_do_not) {
+  EXPECT_NE(shaken_to_pieces(interfaces(), 1), shaken_to_pieces(bending_cohesive(), 1));
 }
 
 // Broken rows that stand apart are passed over, those that touch are not: the same specimen with its rows as
@@ -293,7 +293,7 @@ TEST(YieldingModel, the_order_of_rows_changes_forces_by_round_off_alone) {
       copy.bonds->count_and_cut();
     }
     std::vector<BondBreak> breaks;
-    compute_interface_forces(copy.particles, *copy.bonds, InstructionSet::baseline, {}, dt, breaks);
+    compute_cohesive_forces(copy.particles, *copy.bonds, InstructionSet::baseline, {}, dt, breaks);
     return std::vector<Vector3>(copy.particles.force.begin(), copy.particles.force.end());
   };
   const std::vector<Vector3> ordered = forces(false), as_bonded = forces(true);
@@ -305,7 +305,7 @@ TEST(YieldingModel, the_order_of_rows_changes_forces_by_round_off_alone) {
     ASSERT_LE(norm(ordered[i] - as_bonded[i]), 1e-12 * largest) << "particle " << i;
 }
 
-TEST(InterfaceModel, the_interaction_range_bonds_across_gaps) {
+TEST(CohesiveModel, the_interaction_range_bonds_across_gaps) {
   const double reach = 2 * radius * 1.1;
   const Specimen pair = spheres({{0, 0, 0}, {0, 0, reach * (1 - 1e-9)}, {0, reach * (1 + 1e-9), 0}});
   Model model(pair, interfaces());
@@ -315,7 +315,7 @@ TEST(InterfaceModel, the_interaction_range_bonds_across_gaps) {
 }
 
 // A spinning body stores nothing and loses nothing.
-TEST(InterfaceModel, a_spinning_block_stores_no_energy) {
+TEST(CohesiveModel, a_spinning_block_stores_no_energy) {
   ModelSettings settings = interfaces();
   settings.contact.reset();
   Model model(packed_box(8, 8, 8), settings);
@@ -334,7 +334,7 @@ TEST(InterfaceModel, a_spinning_block_stores_no_energy) {
   EXPECT_LT(e.bonds, 1e-3 * e.kinetic); // the stretch of a spinning body, (w r)^2 rho / E
   double shear = 0;
   for (std::size_t k = 0; k < model.bonds->size(); ++k) {
-    const Triple<double> u = model.bonds->memory<InterfaceState<double>>(k).shear;
+    const Triple<double> u = model.bonds->memory<CohesiveState<double>>(k).shear;
     shear = std::max(shear, root(dot(u, u)));
   }
   EXPECT_LT(shear, 1e-5 * radius);

@@ -41,8 +41,8 @@ struct YieldingBond {
   YieldingBond(const Parameters &p) : parameters(p) {}
 
   template <class Real>
-  InterfaceResponse<Real> operator()(State<Real> &s, const InterfaceGeometry<Real> &g,
-                                     const InterfaceMotion<Real> &m) const {
+  CohesiveResponse<Real> operator()(State<Real> &s, const CohesiveGeometry<Real> &g,
+                                    const CohesiveMotion<Real> &m) const {
     const double limit = parameters.yield_stress;
     const Real length = root(dot(m.distance, m.distance));
     const Real trial = g.normal_stiffness * (length - g.rest_length - s.stretch);
@@ -52,10 +52,10 @@ struct YieldingBond {
     return response(s, g, m.distance);
   }
   template <class Real>
-  InterfaceResponse<Real> response(const State<Real> &s, const InterfaceGeometry<Real> &g,
-                                   const Triple<Real> &d) const {
+  CohesiveResponse<Real> response(const State<Real> &s, const CohesiveGeometry<Real> &g,
+                                  const Triple<Real> &d) const {
     const Real length = root(dot(d, d)), nothing = length * 0.0;
-    InterfaceResponse<Real> r;
+    CohesiveResponse<Real> r;
     r.tension = g.normal_stiffness * (length - g.rest_length - s.stretch);
     r.normal = g.area * r.tension;
     r.force = scale(Real(r.normal / length), d);
@@ -64,9 +64,9 @@ struct YieldingBond {
     r.failed_now = nothing;
     return r;
   }
-  BondResponse<double> bond_response(const State<double> &s, const InterfaceGeometry<double> &g,
-                                     const InterfaceMotion<double> &m) const {
-    const InterfaceResponse<double> from = response(s, g, m.distance);
+  BondResponse<double> bond_response(const State<double> &s, const CohesiveGeometry<double> &g,
+                                     const CohesiveMotion<double> &m) const {
+    const CohesiveResponse<double> from = response(s, g, m.distance);
     BondResponse<double> r{};
     r.force = from.force;
     r.excess = -1;
@@ -75,13 +75,13 @@ struct YieldingBond {
     return r;
   }
   template <class Real>
-  HeldByBond<Real> held(const State<Real> &s, const InterfaceGeometry<Real> &g,
+  HeldByBond<Real> held(const State<Real> &s, const CohesiveGeometry<Real> &g,
                         const BondMotion<Real> &pose) const {
-    const InterfaceResponse<Real> r = response(s, g, pose.distance);
+    const CohesiveResponse<Real> r = response(s, g, pose.distance);
     return {r.force, r.energy};
   }
   template <class Real>
-  Real plastic_work(const State<Real> &s, const InterfaceGeometry<Real> &) const {
+  Real plastic_work(const State<Real> &s, const CohesiveGeometry<Real> &) const {
     return s.work;
   }
   template <class Real>

@@ -13,11 +13,17 @@ namespace {
 using coupling::PlatenTest;
 using coupling::PlatenTestSettings;
 
-enum Law { parallel_bond, cohesive_beam, elasto_damage_plastic, yielding_parallel_bond, bending_interface };
+enum Law {
+  parallel_bond,
+  cohesive_beam,
+  elasto_damage_plastic,
+  yielding_parallel_bond,
+  bending_cohesive_bond
+};
 enum Fixed { rigid, elastic, quasi_static, sleeve };
 enum Moment { before_cracks, cracking, after_peak };
 constexpr std::array laws{parallel_bond, cohesive_beam, elasto_damage_plastic, yielding_parallel_bond,
-                          bending_interface};
+                          bending_cohesive_bond};
 constexpr std::array holds{rigid, elastic, quasi_static, sleeve};
 constexpr std::array moments{before_cracks, cracking, after_peak};
 constexpr std::array thread_counts{1, 2, 4};
@@ -43,13 +49,13 @@ void choose(PlatenTestSettings &s, Law law) {
     s.model.bond = dem::CohesiveBeam::Parameters{0.3, 30e6, 90e6, 0.7853981633974483, 0.5};
   }
   if (law == yielding_parallel_bond) choose_yielding(s);
-  if (law == elasto_damage_plastic || law == bending_interface) {
+  if (law == elasto_damage_plastic || law == bending_cohesive_bond) {
     dem::ElastoDamagePlastic::Parameters p;
     p.tensile_strength = 5e6, p.shear_strength = 16e6;
     p.friction_static = 0.9, p.friction_dynamic = 0.25;
     p.poisson_ratio = 0.2;
     p.compression_limits = {20e6, 45e6, 70e6}, p.compression_slopes = {3, 12, 22};
-    p.moments = law == bending_interface, p.moment_contribution = 0.3;
+    p.moments = law == bending_cohesive_bond, p.moment_contribution = 0.3;
     s.model.bond = p;
     s.model.bond_layout.modulus = 28e9;
     s.model.bond_layout.by_range = true;

@@ -1,10 +1,10 @@
-// Body of the interface kernel; the including file sets PLATEN_LANES and PLATEN_KERNELS.
+// Body of the cohesive bond kernel; the including file sets PLATEN_LANES and PLATEN_KERNELS.
 #include "base/pi.h"
 #include "dem/kernels/block_rows.inc.h"
+#include "dem/kernels/cohesive_kernel.h"
+#include "dem/kernels/cohesive_memory.inc.h"
 #include "dem/kernels/dashpots.inc.h"
-#include "dem/kernels/interface_kernel.h"
-#include "dem/kernels/interface_memory.inc.h"
-#include "dem/kernels/pack.inc.h"
+#include "dem/kernels/simd.inc.h"
 
 namespace platen::dem::kernels {
 namespace {
@@ -21,14 +21,14 @@ constexpr bool is_quick_while_sound = false;
 template <class Law>
 constexpr bool is_quick_while_sound<Law, std::enable_if_t<Law::quick_while_sound>> = true;
 
-PLATEN_INLINE Rotation<Pack> unturned() {
-  const Pack none(0.0);
-  return {Pack(1.0), none, none, none};
+PLATEN_INLINE Rotation<Simd> unturned() {
+  const Simd none(0.0);
+  return {Simd(1.0), none, none, none};
 }
 
 // Without rotation orientations are those of the reference.
 template <class Rows>
-PLATEN_INLINE BondMotion<Pack> pose_of(const Triple<Pack> &distance, const Ends &ends) {
+PLATEN_INLINE BondMotion<Simd> pose_of(const Triple<Simd> &distance, const Ends &ends) {
   if constexpr (Rows::rotation)
     return {distance, orientations<Rows>(FirstEnd(ends)), orientations<Rows>(SecondEnd(ends))};
   else
@@ -38,8 +38,8 @@ PLATEN_INLINE BondMotion<Pack> pose_of(const Triple<Pack> &distance, const Ends 
 // How the ends of each bond lie and move: from the rows, or from the particles' columns where rows do not
 // hold all of it.
 template <class Rows>
-PLATEN_INLINE void part(const BondColumns &c, std::size_t k, const Ends &ends, Triple<Pack> &distance,
-                        Triple<Pack> &velocity) {
+PLATEN_INLINE void part(const BondColumns &c, std::size_t k, const Ends &ends, Triple<Simd> &distance,
+                        Triple<Simd> &velocity) {
   if constexpr (Rows::motion)
     part(ends, distance, velocity);
   else
@@ -60,67 +60,67 @@ PLATEN_INLINE EndTurn end_turn(const BondColumns &c, const int *particle, const 
 // What the pair has done since its last state, at the velocities of the drift that led here. Without
 // rotation the orientations that a law needs are those of the reference.
 template <class Rows, bool needs_orientations, bool from_the_middle = needs_orientations>
-PLATEN_INLINE InterfaceMotion<Pack> motion_of(const BondColumns &c, std::size_t k, const Ends &ends,
-                                              const Pack &lever, double dt) {
-  InterfaceMotion<Pack> m;
-  Triple<Pack> v;
+PLATEN_INLINE CohesiveMotion<Simd> motion_of(const BondColumns &c, std::size_t k, const Ends &ends,
+                                             const Simd &lever, double dt) {
+  CohesiveMotion<Simd> m;
+  Triple<Simd> v;
   part<Rows>(c, k, ends, m.distance, v);
-  m.travelled = scale(Pack(dt), v);
-  m.spun_along = Pack(0.0);
+  m.travelled = scale(Simd(dt), v);
+  m.spun_along = Simd(0.0);
   if constexpr (Rows::rotation) {
     const EndTurn i = end_turn<Rows, needs_orientations>(c, c.first + k, FirstEnd(ends));
     const EndTurn j = end_turn<Rows, needs_orientations>(c, c.second + k, SecondEnd(ends));
-    const Triple<Pack> &wi = i.spin, &wj = j.spin;
+    const Triple<Simd> &wi = i.spin, &wj = j.spin;
     // Of the second's point, -(1 - a) d from its centre, against the first's, a d from its own.
-    const Triple<Pack> turning = scale(lever, wi) + scale(Pack(1.0 - lever), wj);
+    const Triple<Simd> turning = scale(lever, wi) + scale(Simd(1.0 - lever), wj);
     if constexpr (from_the_middle)
-      v = v + cross(m.distance - scale(Pack(0.5), m.travelled), turning);
+      v = v + cross(m.distance - scale(Simd(0.5), m.travelled), turning);
     else
       v = v + cross(m.distance, turning);
     m.spun_along = (0.5 * dt) * dot(wi + wj, m.distance);
     if constexpr (needs_orientations) {
       m.turn_i = i.orientation, m.turn_j = j.orientation;
-      m.turned_i = scale(Pack(dt), wi), m.turned_j = scale(Pack(dt), wj);
+      m.turned_i = scale(Simd(dt), wi), m.turned_j = scale(Simd(dt), wj);
     }
   } else if constexpr (needs_orientations) {
-    const Pack none(0.0);
+    const Simd none(0.0);
     m.turn_i = m.turn_j = unturned();
     m.turned_i = m.turned_j = {none, none, none};
   }
-  m.moved = scale(Pack(dt), v);
+  m.moved = scale(Simd(dt), v);
   return m;
 }
 
 template <class Law>
-PLATEN_INLINE InterfaceGeometry<Pack> geometry(const BondColumns &b, std::size_t k, bool factors) {
-  const Pack radius = load(b.bond_radius + k);
-  InterfaceGeometry<Pack> g{load(b.rest_length + k), load(b.lever + k), load(b.normal_stiffness + k),
-                            Pack(pi * radius * radius)};
+PLATEN_INLINE CohesiveGeometry<Simd> geometry(const BondColumns &b, std::size_t k, bool factors) {
+  const Simd radius = load(b.bond_radius + k);
+  CohesiveGeometry<Simd> g{load(b.rest_length + k), load(b.lever + k), load(b.normal_stiffness + k),
+                           Simd(pi * radius * radius)};
   if (factors) g.strength_factor = load(b.strength_factor + k);
   if constexpr (Law::needs_orientations) g.reference = load(b.reference + k), g.radius = radius;
   return g;
 }
 
 template <class Rows, class Law>
-PLATEN_INLINE void scatter_response(const Ends &ends, const InterfaceGeometry<Pack> &g,
-                                    const Triple<Pack> &distance, const InterfaceResponse<Pack> &response) {
+PLATEN_INLINE void scatter_response(const Ends &ends, const CohesiveGeometry<Simd> &g,
+                                    const Triple<Simd> &distance, const CohesiveResponse<Simd> &response) {
   if constexpr (Law::needs_orientations) {
     scatter<Rows>(ends, response.force, response.torque_i, response.torque_j);
   } else { // only what is across the distance has a moment: d x F = d x F_s
-    const Triple<Pack> moment = cross(distance, response.force);
-    scatter<Rows>(ends, response.force, scale(g.lever, moment), scale(Pack(1.0 - g.lever), moment));
+    const Triple<Simd> moment = cross(distance, response.force);
+    scatter<Rows>(ends, response.force, scale(g.lever, moment), scale(Simd(1.0 - g.lever), moment));
   }
 }
 
 // What a pair does by all it remembers and has done.
 template <class Rows, bool factors, class Law>
-PLATEN_INLINE Pack add_pack_by_motion(const InterfaceColumns &c, const Law &law, std::size_t k,
-                                      const Ends &ends, double dt) {
-  const InterfaceGeometry<Pack> g = geometry<Law>(c.bonds, k, factors);
-  typename Law::template State<Pack> s;
+PLATEN_INLINE Simd add_lanes_by_motion(const CohesiveColumns &c, const Law &law, std::size_t k,
+                                       const Ends &ends, double dt) {
+  const CohesiveGeometry<Simd> g = geometry<Law>(c.bonds, k, factors);
+  typename Law::template State<Simd> s;
   for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
-  const InterfaceMotion<Pack> m = motion_of<Rows, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt);
-  const InterfaceResponse<Pack> response = law(s, g, m);
+  const CohesiveMotion<Simd> m = motion_of<Rows, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt);
+  const CohesiveResponse<Simd> response = law(s, g, m);
   for_each_memory(c.memory, k, s, [](auto *column, const auto &member) { store(column, member); });
   scatter_response<Rows, Law>(ends, g, m.distance, response);
   return response.failed_now;
@@ -128,82 +128,82 @@ PLATEN_INLINE Pack add_pack_by_motion(const InterfaceColumns &c, const Law &law,
 
 // The same as a function of its own, so that the loop over what is whole keeps its registers.
 template <class Rows, bool factors, class Law>
-[[gnu::noinline]] Pack add_broken_pack(const InterfaceColumns &c, const Law &law, std::size_t k,
-                                       const Ends &ends, double dt) {
-  return add_pack_by_motion<Rows, factors>(c, law, k, ends, dt);
+[[gnu::noinline]] Simd add_broken_lanes(const CohesiveColumns &c, const Law &law, std::size_t k,
+                                        const Ends &ends, double dt) {
+  return add_lanes_by_motion<Rows, factors>(c, law, k, ends, dt);
 }
 
-// A pack that is broken as a whole.
+// A SIMD vector that is broken as a whole.
 template <class Rows, bool factors, class Law>
-[[gnu::noinline]] void add_pack_of_broken(const InterfaceColumns &c, const Law &law, std::size_t k,
-                                          const Ends &ends, double dt) {
-  const InterfaceGeometry<Pack> g = geometry<Law>(c.bonds, k, factors);
-  typename Law::template State<Pack> s;
+[[gnu::noinline]] void add_lanes_of_broken(const CohesiveColumns &c, const Law &law, std::size_t k,
+                                           const Ends &ends, double dt) {
+  const CohesiveGeometry<Simd> g = geometry<Law>(c.bonds, k, factors);
+  typename Law::template State<Simd> s;
   for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
   if (law.stays_apart(s, g, distances(ends))) return;
-  const InterfaceMotion<Pack> m =
+  const CohesiveMotion<Simd> m =
       motion_of<Rows, false, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt);
-  const InterfaceResponse<Pack> response = law.advance_broken(s, g, m);
+  const CohesiveResponse<Simd> response = law.advance_broken(s, g, m);
   for_each_memory(c.memory, k, s, [](auto *column, const auto &member) { store(column, member); });
   scatter<Rows>(ends, response.force, response.torque_i, response.torque_j);
 }
 
-// Adds the dashpots to what the springs of a pack do that holds.
+// Adds the dashpots to what the springs of a SIMD vector do that holds.
 template <class Rows, bool dashpots>
 PLATEN_INLINE void add_dashpots(const BondColumns &c, std::size_t k, const Ends &ends,
-                                InterfaceResponse<Pack> &response, PowerSum &power) {
+                                CohesiveResponse<Simd> &response, PowerSum &power) {
   if constexpr (dashpots) {
-    Triple<Pack> d, v;
+    Triple<Simd> d, v;
     part(ends, d, v);
-    const DashpotResponse r = dashpots_of<Rows>(c, k, ends, d, v, Pack(1.0), power);
+    const DashpotResponse r = dashpots_of<Rows>(c, k, ends, d, v, Simd(1.0), power);
     response.force = response.force + r.force;
     response.torque_i = response.torque_i + r.torque_i;
     response.torque_j = response.torque_j + r.torque_j;
   }
 }
 
-// The pack with those that are broken or may break, by all it remembers.
+// The SIMD vector with those that are broken or may break, by all it remembers.
 template <class Rows, bool factors, bool dashpots, class Law>
-PLATEN_INLINE Pack add_any_pack(const InterfaceColumns &c, const Law &law, std::size_t k, const Ends &ends,
-                                double dt, PowerSum &power) {
-  const Pack failed = add_broken_pack<Rows, factors>(c, law, k, ends, dt);
+PLATEN_INLINE Simd add_any_lanes(const CohesiveColumns &c, const Law &law, std::size_t k, const Ends &ends,
+                                 double dt, PowerSum &power) {
+  const Simd failed = add_broken_lanes<Rows, factors>(c, law, k, ends, dt);
   if constexpr (dashpots) add_dashpots_apart<Rows>(c.bonds, k, ends, failed, power);
   return failed;
 }
 
 template <class Rows, bool factors, bool dashpots, class Law>
-PLATEN_INLINE Pack add_pack(const InterfaceColumns &c, const Law &law, std::size_t k, const Ends &ends,
-                            double dt, PowerSum &power) {
-  typename Law::template State<Pack> s;
+PLATEN_INLINE Simd add_lanes(const CohesiveColumns &c, const Law &law, std::size_t k, const Ends &ends,
+                             double dt, PowerSum &power) {
+  typename Law::template State<Simd> s;
   for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
   if constexpr (keeps_failed_last<Law>)
     if (all_positive(law.failed(s))) { // and has no dashpots
-      add_pack_of_broken<Rows, factors>(c, law, k, ends, dt);
-      return Pack(0.0);
+      add_lanes_of_broken<Rows, factors>(c, law, k, ends, dt);
+      return Simd(0.0);
     }
-  InterfaceResponse<Pack> response;
+  CohesiveResponse<Simd> response;
   if constexpr (is_quick_while_whole<Law>) {
     bool changed = false;
-    const Triple<Pack> distance = distances(ends);
+    const Triple<Simd> distance = distances(ends);
     const auto pose = [&] { return pose_of<Rows>(distance, ends); };
     if (!law.advance_whole(s, geometry<Law>(c.bonds, k, factors), distance, pose, response, changed))
-      return add_any_pack<Rows, factors, dashpots>(c, law, k, ends, dt, power);
+      return add_any_lanes<Rows, factors, dashpots>(c, law, k, ends, dt, power);
     if (changed) keep_scalars<Law::scalars_while_whole>(c.memory, k, s);
     add_dashpots<Rows, dashpots>(c.bonds, k, ends, response, power);
     scatter<Rows>(ends, response.force, response.torque_i, response.torque_j);
   } else if constexpr (is_quick_while_sound<Law>) {
-    const InterfaceGeometry<Pack> g = geometry<Law>(c.bonds, k, factors);
-    const InterfaceMotion<Pack> m = motion_of<Rows, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt);
+    const CohesiveGeometry<Simd> g = geometry<Law>(c.bonds, k, factors);
+    const CohesiveMotion<Simd> m = motion_of<Rows, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt);
     bool yielded = false;
     if (!law.advance_sound(s, g, m, response, yielded))
-      return add_any_pack<Rows, factors, dashpots>(c, law, k, ends, dt, power);
+      return add_any_lanes<Rows, factors, dashpots>(c, law, k, ends, dt, power);
     keep_sound<Law>(c.memory, k, s, yielded);
     add_dashpots<Rows, dashpots>(c.bonds, k, ends, response, power);
     scatter_response<Rows, Law>(ends, g, m.distance, response);
   } else {
-    return add_any_pack<Rows, factors, dashpots>(c, law, k, ends, dt, power);
+    return add_any_lanes<Rows, factors, dashpots>(c, law, k, ends, dt, power);
   }
-  return Pack(0.0);
+  return Simd(0.0);
 }
 
 // Asks for a column of rows to come.
@@ -217,39 +217,39 @@ PLATEN_INLINE void foresee(const Value *row) {
 // What follows in all columns of laws that change most of them in each step: there are more of them than a
 // core foresees by itself. (Of those that read less it does, and to ask costs.)
 template <class Law>
-PLATEN_INLINE void foresee_packs(const InterfaceColumns &c, std::size_t k) {
+PLATEN_INLINE void foresee_packs(const CohesiveColumns &c, std::size_t k) {
   if constexpr (is_quick_while_sound<Law>) {
     const BondColumns &b = c.bonds;
     if constexpr (Law::needs_orientations) foresee(b.reference + k);
     foresee(b.ends + k), foresee(b.rest_length + k), foresee(b.lever + k);
     foresee(b.normal_stiffness + k), foresee(b.bond_radius + k);
-    typename Law::template State<Pack> state;
+    typename Law::template State<Simd> state;
     for_each_memory(c.memory, k, state, [](const auto *column, auto &) { foresee(column); });
   }
 }
 
 template <class Rows, bool factors, bool dashpots, class Law>
-BlockFindings compute_forces(const InterfaceColumns &c, const BlockColumns &block, const Law &law, double dt,
+BlockFindings compute_forces(const CohesiveColumns &c, const BlockColumns &block, const Law &law, double dt,
                              std::size_t first, std::size_t last) {
   gather<Rows>(c.bonds, block);
   BlockFindings found;
   PowerSum power;
-  const auto look = [&](std::size_t at, std::size_t end, const Pack &failed) {
+  const auto look = [&](std::size_t at, std::size_t end, const Simd &failed) {
     if (any_positive(failed)) add_reached(found, at, end);
   };
   std::size_t k = first;
   for (; k + lanes <= last; k += lanes) {
     foresee_packs<Law>(c, k);
     const Ends ends = ends_of(c.bonds, block, k);
-    look(k, k + lanes, add_pack<Rows, factors, dashpots>(c, law, k, ends, dt, power));
+    look(k, k + lanes, add_lanes<Rows, factors, dashpots>(c, law, k, ends, dt, power));
   }
   if (k < last) {
     Tail tail(c.bonds, k, last);
     MemoryTail memory(c.memory, k, last);
     const TailEnds at = tail_ends<Rows>(c.bonds, block, k, last);
-    const InterfaceColumns rest{tail.columns(c.bonds), memory.columns()};
+    const CohesiveColumns rest{tail.columns(c.bonds), memory.columns()};
     const Ends ends{block.rows, at.at};
-    look(k, last, add_pack<Rows, factors, dashpots>(rest, law, 0, ends, dt, power));
+    look(k, last, add_lanes<Rows, factors, dashpots>(rest, law, 0, ends, dt, power));
     memory.give_back(c.memory, k, last);
     tail.give_back(c.bonds, k, last);
   }
@@ -259,7 +259,7 @@ BlockFindings compute_forces(const InterfaceColumns &c, const BlockColumns &bloc
 }
 
 template <bool rotation, bool dashpots, class Law>
-BlockFindings compute_with(const InterfaceColumns &c, const BlockColumns &block, const Law &law, double dt,
+BlockFindings compute_with(const CohesiveColumns &c, const BlockColumns &block, const Law &law, double dt,
                            std::size_t first, std::size_t last) {
   using Rows = RowLayout<rotation, reads_motion<Law> || dashpots>;
   return c.bonds.strength_factor != nullptr
@@ -268,7 +268,7 @@ BlockFindings compute_with(const InterfaceColumns &c, const BlockColumns &block,
 }
 
 template <bool rotation, class Law>
-BlockFindings compute_beside(const InterfaceColumns &c, const BlockColumns &block, const Law &law, double dt,
+BlockFindings compute_beside(const CohesiveColumns &c, const BlockColumns &block, const Law &law, double dt,
                              std::size_t first, std::size_t last) {
   return c.bonds.dashpot != nullptr ? compute_with<rotation, true>(c, block, law, dt, first, last)
                                     : compute_with<rotation, false>(c, block, law, dt, first, last);
@@ -278,11 +278,11 @@ BlockFindings compute_beside(const InterfaceColumns &c, const BlockColumns &bloc
 template <class Law, class F>
 auto as_it_bends(const Law &law, bool turning, const F &f) {
   if constexpr (std::is_same_v<Law, ElastoDamagePlastic>)
-    if (turning && law.bends()) return f(BendingInterface{law});
+    if (turning && law.bends()) return f(BendingCohesive{law});
   return f(law);
 }
 
-BlockFindings compute_forces_of(const InterfaceColumns &c, const BlockColumns &block, const BondLaw &law,
+BlockFindings compute_forces_of(const CohesiveColumns &c, const BlockColumns &block, const BondLaw &law,
                                 double dt, std::size_t first, std::size_t last) {
   const bool turning = c.bonds.orientation != nullptr;
   return of_remembering(law, [&](const auto &remembering) {
@@ -295,20 +295,20 @@ BlockFindings compute_forces_of(const InterfaceColumns &c, const BlockColumns &b
 
 // From the particles' columns.
 template <bool rotation, class Law>
-PLATEN_INLINE void measure_pack(const InterfaceColumns &c, const Law &law, const InterfaceRowValues &to,
-                                std::size_t k, std::size_t at, std::size_t count) {
+PLATEN_INLINE void measure_lanes(const CohesiveColumns &c, const Law &law, const CohesiveRowValues &to,
+                                 std::size_t k, std::size_t at, std::size_t count) {
   const BondColumns &b = c.bonds;
   const int *i = b.first + k, *j = b.second + k;
-  const Pack none(0.0);
-  BondMotion<Pack> pose{gather_difference(b.position, j, i), {Pack(1.0), none, none, none}, {}};
+  const Simd none(0.0);
+  BondMotion<Simd> pose{gather_difference(b.position, j, i), {Simd(1.0), none, none, none}, {}};
   pose.turn_j = pose.turn_i;
   if constexpr (rotation && Law::needs_orientations)
     pose.turn_i = gather(b.orientation, i), pose.turn_j = gather(b.orientation, j);
-  const InterfaceGeometry<Pack> g = geometry<Law>(b, k, b.strength_factor != nullptr);
-  typename Law::template State<Pack> s;
+  const CohesiveGeometry<Simd> g = geometry<Law>(b, k, b.strength_factor != nullptr);
+  typename Law::template State<Simd> s;
   for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
-  const HeldByBond<Pack> held = law.held(s, g, pose);
-  const auto put = [&](double *column, const Pack &value) {
+  const HeldByBond<Simd> held = law.held(s, g, pose);
+  const auto put = [&](double *column, const Simd &value) {
     for (std::size_t l = 0; l < count; ++l)
       column[at + l] = value.v[l];
   };
@@ -320,21 +320,21 @@ PLATEN_INLINE void measure_pack(const InterfaceColumns &c, const Law &law, const
 }
 
 template <bool rotation, class Law>
-void measure(const InterfaceColumns &c, const Law &law, const InterfaceRowValues &to, std::size_t first,
+void measure(const CohesiveColumns &c, const Law &law, const CohesiveRowValues &to, std::size_t first,
              std::size_t last) {
   std::size_t k = first;
   for (; k + lanes <= last; k += lanes)
-    measure_pack<rotation>(c, law, to, k, k - first, lanes);
+    measure_lanes<rotation>(c, law, to, k, k - first, lanes);
   if (k == last) return;
   Tail tail(c.bonds, k, last);
   MemoryTail memory(c.memory, k, last);
   BondColumns rest = tail.columns(c.bonds);
   if (c.bonds.strength_factor == nullptr) rest.strength_factor = nullptr;
-  measure_pack<rotation>({rest, memory.columns()}, law, to, 0, k - first, last - k);
+  measure_lanes<rotation>({rest, memory.columns()}, law, to, 0, k - first, last - k);
 }
 
-void measure_of(const InterfaceColumns &c, const BondLaw &law, const InterfaceRowValues &to,
-                std::size_t first, std::size_t last) {
+void measure_of(const CohesiveColumns &c, const BondLaw &law, const CohesiveRowValues &to, std::size_t first,
+                std::size_t last) {
   const bool turning = c.bonds.orientation != nullptr;
   of_remembering(law, [&](const auto &remembering) {
     as_it_bends(remembering, turning, [&](const auto &one) {
@@ -345,6 +345,6 @@ void measure_of(const InterfaceColumns &c, const BondLaw &law, const InterfaceRo
 
 } // namespace
 
-const InterfaceKernel PLATEN_KERNELS{compute_forces_of, measure_of};
+const CohesiveKernel PLATEN_KERNELS{compute_forces_of, measure_of};
 
 } // namespace platen::dem::kernels

@@ -1,5 +1,5 @@
 // Block kernel of bonds that remember, for all laws that do. One source, compiled once per instruction set
-// (interface_kernel.inc.h).
+// (cohesive_kernel.inc.h).
 #pragma once
 
 #include "dem/kernels/bond_kernel.h"
@@ -15,13 +15,13 @@ struct MemoryColumns {
 };
 
 // Of bonds velocities too.
-struct InterfaceColumns {
+struct CohesiveColumns {
   BondColumns bonds;
   MemoryColumns memory;
 };
 
-// What interfaces hold and have taken, row by row, from index 0.
-struct InterfaceRowValues {
+// What cohesive bonds hold and have taken, row by row, from index 0.
+struct CohesiveRowValues {
   double *energy;     // J
   double *force;      // N, size of the force between the two
   double *dissipated; // J, by damage, or by friction of what has failed
@@ -29,16 +29,16 @@ struct InterfaceRowValues {
   double *plastic;    // J
 };
 
-struct InterfaceKernel {
-  // Brings interfaces [first, last), those of one block, to the present, `dt` after their last state, and
+struct CohesiveKernel {
+  // Brings cohesive bonds [first, last), those of one block, to the present, `dt` after their last state, and
   // adds up their forces and those of their dashpots.
-  BlockFindings (*compute_forces)(const InterfaceColumns &, const BlockColumns &, const BondLaw &, double dt,
+  BlockFindings (*compute_forces)(const CohesiveColumns &, const BlockColumns &, const BondLaw &, double dt,
                                   std::size_t first, std::size_t last);
-  // Of interfaces [first, last) of any block.
-  void (*measure)(const InterfaceColumns &, const BondLaw &, const InterfaceRowValues &, std::size_t first,
+  // Of cohesive bonds [first, last) of any block.
+  void (*measure)(const CohesiveColumns &, const BondLaw &, const CohesiveRowValues &, std::size_t first,
                   std::size_t last);
 };
 
-extern const InterfaceKernel interface_kernel_baseline, interface_kernel_avx2, interface_kernel_avx512;
+extern const CohesiveKernel cohesive_kernel_baseline, cohesive_kernel_avx2, cohesive_kernel_avx512;
 
 } // namespace platen::dem::kernels

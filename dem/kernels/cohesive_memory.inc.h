@@ -1,15 +1,16 @@
-// What interfaces remember, between their columns and packs.
+// What cohesive bonds remember, between their columns and SIMD vectors.
 #pragma once
 
 #include <type_traits>
 
-#include "dem/kernels/interface_kernel.h"
-#include "dem/kernels/pack.inc.h"
+#include "dem/kernels/cohesive_kernel.h"
+#include "dem/kernels/simd.inc.h"
 
 namespace platen::dem::kernels {
 namespace {
 
-// What the last interfaces of a block remember, the very last repeated where they do not fill a pack.
+// What the last cohesive bonds of a block remember, the very last repeated where they do not fill a SIMD
+// vector.
 struct MemoryTail {
   double scalar[most_scalars][lanes];
   Vector3 vector[most_vectors][lanes + 1];
@@ -41,7 +42,7 @@ struct MemoryTail {
   }
 };
 
-PLATEN_INLINE void store(double *to, const Pack &a) {
+PLATEN_INLINE void store(double *to, const Simd &a) {
   for (int l = 0; l < lanes; ++l)
     to[l] = a.v[l];
 }
@@ -52,7 +53,7 @@ PLATEN_INLINE void for_each_memory(const MemoryColumns &columns, std::size_t k, 
   std::size_t scalars = 0, vectors = 0;
   State::describe(
       [&](const char *, const char *, auto &member) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(member)>, Pack>)
+        if constexpr (std::is_same_v<std::decay_t<decltype(member)>, Simd>)
           f(columns.scalar[scalars++] + k, member);
         else
           f(columns.vector[vectors++] + k, member);
@@ -66,7 +67,7 @@ PLATEN_INLINE void keep_scalars(const MemoryColumns &columns, std::size_t k, Sta
   std::size_t at = 0;
   State::describe(
       [&](const char *, const char *, auto &member) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(member)>, Pack>)
+        if constexpr (std::is_same_v<std::decay_t<decltype(member)>, Simd>)
           if (at < count) store(columns.scalar[at] + k, member);
         ++at;
       },
@@ -81,7 +82,7 @@ PLATEN_INLINE void keep_sound(const MemoryColumns &columns, std::size_t k, State
       [&](const char *, const char *, auto &member) {
         const Changes how = Law::sound_members[member_at++];
         const bool changes = how == Changes::always || (how == Changes::rarely && yielded);
-        if constexpr (std::is_same_v<std::decay_t<decltype(member)>, Pack>) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(member)>, Simd>) {
           double *column = columns.scalar[scalars++];
           if (changes) store(column + k, member);
         } else {

@@ -1,4 +1,4 @@
-// Elasto-damage-plastic interfaces that bend and twist, as an option: the moments of the parallel bond
+// Elasto-damage-plastic cohesive bonds that bend and twist, as an option: the moments of the parallel bond
 // (bond_form.h), k_n I and k_s J times the relative rotation, in total form, so that nothing more is
 // remembered. They strain the skin, T + beta |M_b| R_b/I and k_s |u_s| + beta |M_t| R_b/J by what they would
 // be without damage, and lose what the worse of tension and shear has lost: M = min(g(D_n), g(D_s)) M_whole.
@@ -10,10 +10,10 @@
 namespace platen::dem {
 
 // The law where it bends: for loops, which ask once a block which of the two it is.
-struct BendingInterface {
+struct BendingCohesive {
   static constexpr bool needs_orientations = true;
   template <class Real>
-  using State = InterfaceState<Real>;
+  using State = CohesiveState<Real>;
 
   const ElastoDamagePlastic &law;
 
@@ -24,33 +24,33 @@ struct BendingInterface {
     SkinStress<Real> skin;
   };
   template <class Real>
-  Whole<Real> whole(const InterfaceGeometry<Real> &g, const BondMotion<Real> &pose) const;
+  Whole<Real> whole(const CohesiveGeometry<Real> &g, const BondMotion<Real> &pose) const;
 
   template <class Real>
-  InterfaceResponse<Real> operator()(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
-                                     const InterfaceMotion<Real> &m) const;
+  CohesiveResponse<Real> operator()(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
+                                    const CohesiveMotion<Real> &m) const;
   // As of the law without moments.
   static constexpr bool quick_while_sound = true, failed_rows_last = true;
   static constexpr const auto &sound_members = ElastoDamagePlastic::sound_members;
   template <class Real>
-  bool advance_sound(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
-                     const InterfaceMotion<Real> &m, InterfaceResponse<Real> &r, bool &yielded) const;
+  bool advance_sound(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g, const CohesiveMotion<Real> &m,
+                     CohesiveResponse<Real> &r, bool &yielded) const;
   template <class Real>
-  static Real failed(const InterfaceState<Real> &s) {
+  static Real failed(const CohesiveState<Real> &s) {
     return ElastoDamagePlastic::failed(s);
   }
   template <class Real>
-  bool stays_apart(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+  bool stays_apart(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
                    const Triple<Real> &distance) const {
     return law.stays_apart(s, g, distance);
   }
   template <class Real>
-  InterfaceResponse<Real> advance_broken(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
-                                         const InterfaceMotion<Real> &m) const {
+  CohesiveResponse<Real> advance_broken(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
+                                        const CohesiveMotion<Real> &m) const {
     return law.advance_broken(s, g, m); // it has no moments
   }
   template <class Real>
-  HeldByBond<Real> held(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
+  HeldByBond<Real> held(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
                         const BondMotion<Real> &pose) const {
     const HeldByBond<Real> forces = law.held(s, g, pose);
     const BondResponse<Real> moments = whole(g, pose).moments;
@@ -58,18 +58,18 @@ struct BendingInterface {
     return {forces.force + scale(left, moments.force), forces.energy + left * moments.energy};
   }
   template <class Real>
-  Real plastic_work(const InterfaceState<Real> &s, const InterfaceGeometry<Real> &g) const {
+  Real plastic_work(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g) const {
     return law.plastic_work(s, g);
   }
   template <class Real>
-  static Real damage_of(const InterfaceState<Real> &s) {
+  static Real damage_of(const CohesiveState<Real> &s) {
     return ElastoDamagePlastic::damage_of(s);
   }
 };
 
 template <class Real>
-PLATEN_INLINE auto BendingInterface::whole(const InterfaceGeometry<Real> &g,
-                                           const BondMotion<Real> &pose) const -> Whole<Real> {
+PLATEN_INLINE auto BendingCohesive::whole(const CohesiveGeometry<Real> &g, const BondMotion<Real> &pose) const
+    -> Whole<Real> {
   const Real kn = g.normal_stiffness, ks = law.shear_ratio() * kn;
   const Real square = dot(pose.distance, pose.distance), zero = square * 0.0;
   const Triple<Real> none{zero, zero, zero};
@@ -87,12 +87,12 @@ PLATEN_INLINE auto BendingInterface::whole(const InterfaceGeometry<Real> &g,
 }
 
 template <class Real>
-PLATEN_INLINE InterfaceResponse<Real> BendingInterface::operator()(InterfaceState<Real> &s,
-                                                                   const InterfaceGeometry<Real> &g,
-                                                                   const InterfaceMotion<Real> &m) const {
+PLATEN_INLINE CohesiveResponse<Real> BendingCohesive::operator()(CohesiveState<Real> &s,
+                                                                 const CohesiveGeometry<Real> &g,
+                                                                 const CohesiveMotion<Real> &m) const {
   const Real was = law.share_of_moments(s, g);
   const Whole<Real> w = whole(g, BondMotion<Real>{m.distance, m.turn_i, m.turn_j});
-  InterfaceResponse<Real> r = law.template advance_under<true>(w.skin, s, g, m);
+  CohesiveResponse<Real> r = law.template advance_under<true>(w.skin, s, g, m);
   const Real is = law.share_of_moments(s, g);
   // As of every spring that loses a share: the product of both ends, of which the first is the second less
   // the step.
@@ -109,9 +109,9 @@ PLATEN_INLINE InterfaceResponse<Real> BendingInterface::operator()(InterfaceStat
 }
 
 template <class Real>
-PLATEN_INLINE bool BendingInterface::advance_sound(InterfaceState<Real> &s, const InterfaceGeometry<Real> &g,
-                                                   const InterfaceMotion<Real> &m, InterfaceResponse<Real> &r,
-                                                   bool &yielded) const {
+PLATEN_INLINE bool BendingCohesive::advance_sound(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
+                                                  const CohesiveMotion<Real> &m, CohesiveResponse<Real> &r,
+                                                  bool &yielded) const {
   const Whole<Real> w = whole(g, BondMotion<Real>{m.distance, m.turn_i, m.turn_j});
   if (!law.template advance_sound<true>(w.skin, s, g, m, r, yielded)) return false;
   const Triple<Real> moment = cross(m.distance, r.force);
@@ -121,12 +121,12 @@ PLATEN_INLINE bool BendingInterface::advance_sound(InterfaceState<Real> &s, cons
   return true;
 }
 
-inline BondResponse<double> ElastoDamagePlastic::bond_response(const InterfaceState<double> &s,
-                                                               const InterfaceGeometry<double> &g,
-                                                               const InterfaceMotion<double> &m) const {
+inline BondResponse<double> ElastoDamagePlastic::bond_response(const CohesiveState<double> &s,
+                                                               const CohesiveGeometry<double> &g,
+                                                               const CohesiveMotion<double> &m) const {
   if (!parameters.moments) return response_under({0, 0}, s, g, m);
-  const BendingInterface::Whole<double> whole =
-      BendingInterface{*this}.whole(g, BondMotion<double>{m.distance, m.turn_i, m.turn_j});
+  const BendingCohesive::Whole<double> whole =
+      BendingCohesive{*this}.whole(g, BondMotion<double>{m.distance, m.turn_i, m.turn_j});
   BondResponse<double> r = response_under(whole.skin, s, g, m);
   const double left = share_of_moments(s, g);
   r.force = r.force + scale(left, whole.moments.force);

@@ -1,4 +1,4 @@
-#include "apps/bonds/interface_forms.h"
+#include "apps/bonds/cohesive_forms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ double share(const SofteningByHand &of, double farthest) {
   return std::isfinite(of.limit()) ? of.damage(farthest / of.limit()) : 0;
 }
 
-void take(InterfaceSection &s, const dem::ElastoDamagePlastic &law) {
+void take(CohesiveSection &s, const dem::ElastoDamagePlastic &law) {
   const dem::ElastoDamagePlastic::Parameters &p = law.parameters;
   s.shear_ratio = 0.5 / (1 + p.poisson_ratio);
   s.friction_static = p.friction_static, s.friction_dynamic = p.friction_dynamic;
@@ -23,7 +23,7 @@ void take(InterfaceSection &s, const dem::ElastoDamagePlastic &law) {
   s.fracture_energy_tension = p.fracture_energy_tension, s.fracture_energy_shear = p.fracture_energy_shear;
   s.coupled = p.failure_line == dem::FailureLine::coupled;
 }
-void take(InterfaceSection &s, const dem::YieldingParallelBond &law) {
+void take(CohesiveSection &s, const dem::YieldingParallelBond &law) {
   s.arms_at_rest = true;
   s.shear_ratio = law.parameters.stiffness_ratio;
   s.friction_static = std::tan(law.parameters.friction_angle), s.friction_dynamic = law.grain_friction;
@@ -31,8 +31,8 @@ void take(InterfaceSection &s, const dem::YieldingParallelBond &law) {
 
 } // namespace
 
-InterfaceSection section_of(const dem::BondLaw &law, double length, double area, double modulus) {
-  InterfaceSection s;
+CohesiveSection section_of(const dem::BondLaw &law, double length, double area, double modulus) {
+  CohesiveSection s;
   s.length = length, s.area = area, s.modulus = modulus;
   const bool remembers = dem::of_remembering(law, [&](const auto &of) {
     s.tensile_strength = of.parameters.tensile_strength, s.shear_strength = of.parameters.shear_strength;
@@ -44,14 +44,14 @@ InterfaceSection section_of(const dem::BondLaw &law, double length, double area,
   return s;
 }
 
-SofteningByHand InterfaceSection::tension() const {
+SofteningByHand CohesiveSection::tension() const {
   SofteningByHand s{dem::never_if_zero(tensile_strength), normal_stiffness(), softening_tension};
   if (fracture_energy_tension > 0)
     s.softening = 2 * fracture_energy_tension * s.stiffness / (s.strength * s.strength);
   return s;
 }
 
-SofteningByHand InterfaceSection::shear(double pressure) const {
+SofteningByHand CohesiveSection::shear(double pressure) const {
   const double strength = dem::never_if_zero(shear_strength);
   SofteningByHand s{strength + friction_static * pressure, shear_stiffness(), softening_shear};
   if (fracture_energy_shear > 0)
@@ -59,7 +59,7 @@ SofteningByHand InterfaceSection::shear(double pressure) const {
   return s;
 }
 
-double InterfaceSection::yield_stress(double closing) const {
+double CohesiveSection::yield_stress(double closing) const {
   double at = 0, stress = 0, slope = normal_stiffness();
   for (const auto &branch : compression.branches) {
     const double next = at + (branch.limit - stress) / slope;
@@ -69,7 +69,7 @@ double InterfaceSection::yield_stress(double closing) const {
   return stress + slope * (closing - at);
 }
 
-double InterfaceSection::closing_at(double wanted) const {
+double CohesiveSection::closing_at(double wanted) const {
   double at = 0, stress = 0, slope = normal_stiffness();
   for (const auto &branch : compression.branches) {
     if (wanted <= branch.limit) break;
@@ -79,48 +79,48 @@ double InterfaceSection::closing_at(double wanted) const {
   return at + (wanted - stress) / slope;
 }
 
-InterfaceByHand::InterfaceByHand(const InterfaceSection &section, bool combined, double slip_ratio)
+CohesiveByHand::CohesiveByHand(const CohesiveSection &section, bool combined, double slip_ratio)
     : section_(section), combined_(combined), slip_ratio_(slip_ratio) {}
 
-double InterfaceByHand::pressure() const {
+double CohesiveByHand::pressure() const {
   return std::max(0.0, -section_.normal_stiffness() * (at_.opening + plastic_));
 }
 
-double InterfaceByHand::stretch() const {
+double CohesiveByHand::stretch() const {
   return section_.friction_dynamic * pressure() / section_.shear_stiffness();
 }
 
 // Both spheres have turned by slip/d, the arms at rest with them.
-double InterfaceByHand::own_slip(double slip) const {
+double CohesiveByHand::own_slip(double slip) const {
   if (!section_.arms_at_rest) return slip;
   return section_.length * std::sin(slip / (section_.length + at_.opening));
 }
 
-double InterfaceByHand::slip_of(double own) const {
+double CohesiveByHand::slip_of(double own) const {
   if (!section_.arms_at_rest) return own;
   return (section_.length + at_.opening) * std::asin(own / section_.length);
 }
 
-InterfaceByHand::Used InterfaceByHand::used() const {
+CohesiveByHand::Used CohesiveByHand::used() const {
   const SofteningByHand tension = section_.tension(), shear = section_.shear(0);
   const double n = widest_ / tension.limit(), s = slip_ratio_ * widest_ / shear.limit();
   if (section_.coupled) return {n + s, n + s};
   return {n, s};
 }
 
-double InterfaceByHand::tension_damage() const {
+double CohesiveByHand::tension_damage() const {
   const SofteningByHand tension = section_.tension();
   if (combined_) return tension.damage(used().tension);
   return share(tension, widest_);
 }
 
-double InterfaceByHand::shear_damage() const {
+double CohesiveByHand::shear_damage() const {
   if (combined_) return section_.shear(0).damage(used().shear);
   return share(section_.shear(pressure()), farthest_);
 }
 
 // Shares of stress that cohesion holds at the present opening and slip, and what friction adds.
-InterfaceByHand::Stresses InterfaceByHand::stresses() const {
+CohesiveByHand::Stresses CohesiveByHand::stresses() const {
   Stresses s;
   const double kn = section_.normal_stiffness(), ks = section_.shear_stiffness();
   const double open = at_.opening + plastic_;
@@ -143,7 +143,7 @@ InterfaceByHand::Stresses InterfaceByHand::stresses() const {
   return s;
 }
 
-double InterfaceByHand::stored() const {
+double CohesiveByHand::stored() const {
   const Stresses s = stresses();
   const double friction = s.friction_share * section_.shear_stiffness() * slider_ * slider_;
   const double own = failed_ || !section_.arms_at_rest
@@ -152,7 +152,7 @@ double InterfaceByHand::stored() const {
   return 0.5 * section_.area * (s.normal * (at_.opening + plastic_) + own + friction);
 }
 
-void InterfaceByHand::update() {
+void CohesiveByHand::update() {
   deepest_ = std::max(deepest_, -at_.opening);
   plastic_ = deepest_ - section_.yield_stress(deepest_) / section_.normal_stiffness();
   widest_ = std::max(widest_, at_.opening + plastic_);
@@ -167,7 +167,7 @@ void InterfaceByHand::update() {
           section_.area * (s.cohesion + s.friction_share * section_.shear_stiffness() * slider_)};
 }
 
-std::vector<double> InterfaceByHand::kinks(const InterfacePlace &to) const {
+std::vector<double> CohesiveByHand::kinks(const CohesivePlace &to) const {
   const double opened = to.opening - at_.opening, slipped = to.slip - at_.slip;
   std::vector<double> shares;
   const auto at = [&](double place, double from, double distance) {
@@ -207,13 +207,13 @@ std::vector<double> InterfaceByHand::kinks(const InterfacePlace &to) const {
   return shares;
 }
 
-void InterfaceByHand::go(const InterfacePlace &to) {
-  const InterfacePlace from = at_;
+void CohesiveByHand::go(const CohesivePlace &to) {
+  const CohesivePlace from = at_;
   std::vector<double> ends = kinks(to);
   ends.push_back(1);
   for (const double end : ends) {
-    const InterfaceLoad before = now_;
-    const InterfacePlace last = at_;
+    const CohesiveLoad before = now_;
+    const CohesivePlace last = at_;
     at_.opening = end < 1 ? from.opening + end * (to.opening - from.opening) : to.opening;
     at_.slip = end < 1 ? from.slip + end * (to.slip - from.slip) : to.slip;
     slider_ = std::clamp(slider_ + at_.slip - last.slip, -stretch(), stretch());

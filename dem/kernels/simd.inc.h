@@ -1,4 +1,4 @@
-// Packs of doubles and how they are read from and written to rows; for the kernel sources, which set
+// SIMD vectors of doubles and how they are read from and written to rows; for the kernel sources, which set
 // PLATEN_LANES (2, 4 or 8). Everything stays in an unnamed namespace of the including file, because functions
 // compiled for one instruction set must never be linked into another's.
 #pragma once
@@ -19,11 +19,11 @@ typedef double Native __attribute__((vector_size(8 * PLATEN_LANES)));
 
 // A struct of this file, not the bare vector type: what is instantiated on it then belongs to this file
 // alone.
-struct Pack {
+struct Simd {
   Native v{};
-  Pack() = default;
-  Pack(Native a) : v(a) {}
-  Pack(double a) : v(a - Native{}) {}
+  Simd() = default;
+  Simd(Native a) : v(a) {}
+  Simd(double a) : v(a - Native{}) {}
 };
 // Beside those of double, which the ones below would hide.
 using dem::all_positive;
@@ -34,34 +34,34 @@ using dem::positive_part;
 using dem::root;
 using dem::where_positive;
 
-PLATEN_INLINE Pack operator+(const Pack &a, const Pack &b) {
+PLATEN_INLINE Simd operator+(const Simd &a, const Simd &b) {
   return a.v + b.v;
 }
-PLATEN_INLINE Pack operator-(const Pack &a, const Pack &b) {
+PLATEN_INLINE Simd operator-(const Simd &a, const Simd &b) {
   return a.v - b.v;
 }
-PLATEN_INLINE Pack operator*(const Pack &a, const Pack &b) {
+PLATEN_INLINE Simd operator*(const Simd &a, const Simd &b) {
   return a.v * b.v;
 }
-PLATEN_INLINE Pack operator/(const Pack &a, const Pack &b) {
+PLATEN_INLINE Simd operator/(const Simd &a, const Simd &b) {
   return a.v / b.v;
 }
-PLATEN_INLINE Pack operator-(const Pack &a) {
+PLATEN_INLINE Simd operator-(const Simd &a) {
   return -a.v;
 }
-PLATEN_INLINE Pack root(const Pack &a) {
-  Pack r;
+PLATEN_INLINE Simd root(const Simd &a) {
+  Simd r;
   for (int l = 0; l < lanes; ++l)
     r.v[l] = __builtin_sqrt(a.v[l]);
   return r;
 }
-PLATEN_INLINE Pack magnitude(const Pack &a) {
+PLATEN_INLINE Simd magnitude(const Simd &a) {
   return a.v < 0.0 ? -a.v : a.v;
 }
-PLATEN_INLINE Pack larger(const Pack &a, const Pack &b) {
+PLATEN_INLINE Simd larger(const Simd &a, const Simd &b) {
   return a.v > b.v ? a.v : b.v;
 }
-PLATEN_INLINE Pack positive_part(const Pack &a) {
+PLATEN_INLINE Simd positive_part(const Simd &a) {
 #if PLATEN_LANES == 8 && defined(__AVX512F__) // the compiler makes two instructions of the comparison with 0
   return (Native)_mm512_maskz_max_pd(__mmask8(-1), (__m512d)a.v, _mm512_setzero_pd());
 #else
@@ -69,7 +69,7 @@ PLATEN_INLINE Pack positive_part(const Pack &a) {
 #endif
 }
 // Which lanes are above 0, a bit each.
-PLATEN_INLINE unsigned positive_lanes(const Pack &a) {
+PLATEN_INLINE unsigned positive_lanes(const Simd &a) {
 #if PLATEN_LANES == 8
   return _mm512_cmp_pd_mask((__m512d)a.v, _mm512_setzero_pd(), _CMP_GT_OQ);
 #elif PLATEN_LANES == 4
@@ -85,7 +85,7 @@ PLATEN_INLINE unsigned positive_lanes(const Pack &a) {
 #endif
 }
 // Which lanes of `a` are at `b` or above it, a bit each.
-PLATEN_INLINE unsigned lanes_at_least(const Pack &a, const Pack &b) {
+PLATEN_INLINE unsigned lanes_at_least(const Simd &a, const Simd &b) {
 #if PLATEN_LANES == 8 && defined(__AVX512F__)
   return _mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_GE_OQ);
 #elif PLATEN_LANES == 4
@@ -100,20 +100,20 @@ PLATEN_INLINE unsigned lanes_at_least(const Pack &a, const Pack &b) {
 #endif
 }
 constexpr unsigned all_lanes = (1u << lanes) - 1;
-PLATEN_INLINE bool any_positive(const Pack &a) {
+PLATEN_INLINE bool any_positive(const Simd &a) {
   return positive_lanes(a) != 0;
 }
-PLATEN_INLINE bool all_positive(const Pack &a) {
+PLATEN_INLINE bool all_positive(const Simd &a) {
   return positive_lanes(a) == all_lanes;
 }
-PLATEN_INLINE Pack where_positive(const Pack &x, const Pack &a, const Pack &b) {
+PLATEN_INLINE Simd where_positive(const Simd &x, const Simd &a, const Simd &b) {
   return x.v > 0.0 ? a.v : b.v;
 }
 // `size`, which is not negative, with the sign of `of`.
 PLATEN_INLINE double with_sign(double size, double of) {
   return __builtin_copysign(size, of);
 }
-PLATEN_INLINE Pack with_sign(const Pack &size, const Pack &of) {
+PLATEN_INLINE Simd with_sign(const Simd &size, const Simd &of) {
   typedef long long Bits __attribute__((vector_size(8 * PLATEN_LANES)));
   const Bits sign = (Bits)(-0.0 - Native{});
   return (Native)((Bits)size.v | ((Bits)of.v & sign));
@@ -144,13 +144,13 @@ PLATEN_INLINE LongRow operator-(const LongRow &a, const LongRow &b) {
 PLATEN_INLINE LongRow load_long_row(const double *from) {
   return {load_row(from), load_row(from + 4)};
 }
-PLATEN_INLINE Rotation<Pack> first_columns(const LongRow *rows) {
+PLATEN_INLINE Rotation<Simd> first_columns(const LongRow *rows) {
   Row firsts[lanes];
   for (int l = 0; l < lanes; ++l)
     firsts[l] = rows[l].first;
   return to_columns(firsts);
 }
-PLATEN_INLINE Rotation<Pack> second_columns(const LongRow *rows) {
+PLATEN_INLINE Rotation<Simd> second_columns(const LongRow *rows) {
   Row seconds[lanes];
   for (int l = 0; l < lanes; ++l)
     seconds[l] = rows[l].second;
@@ -158,14 +158,14 @@ PLATEN_INLINE Rotation<Pack> second_columns(const LongRow *rows) {
 }
 #endif
 
-PLATEN_INLINE Triple<Pack> to_vector(const Rotation<Pack> &columns) {
+PLATEN_INLINE Triple<Simd> to_vector(const Rotation<Simd> &columns) {
   return {columns.w, columns.x, columns.y};
 }
-PLATEN_INLINE Triple<Pack> to_vectors(const Row *rows) {
+PLATEN_INLINE Triple<Simd> to_vectors(const Row *rows) {
   return to_vector(to_columns(rows));
 }
 
-PLATEN_INLINE Rotation<Pack> load(const Quaternion *from) {
+PLATEN_INLINE Rotation<Simd> load(const Quaternion *from) {
   Row rows[lanes];
   for (int l = 0; l < lanes; ++l)
     rows[l] = load_row(&from[l].w);
@@ -183,20 +183,20 @@ PLATEN_INLINE Row load_vector(const Vector3 *from) {
 
 // Rows column[at[l]] for every lane. Columns have a spare row at their end, so that a vector can be read as
 // four doubles.
-PLATEN_INLINE Rotation<Pack> gather(const Quaternion *column, const int *at) {
+PLATEN_INLINE Rotation<Simd> gather(const Quaternion *column, const int *at) {
   Row rows[lanes];
   for (int l = 0; l < lanes; ++l)
     rows[l] = load_row(&column[at[l]].w);
   return to_columns(rows);
 }
-PLATEN_INLINE Triple<Pack> gather(const Vector3 *column, const int *at) {
+PLATEN_INLINE Triple<Simd> gather(const Vector3 *column, const int *at) {
   Row rows[lanes];
   for (int l = 0; l < lanes; ++l)
     rows[l] = load_row(&column[at[l]].x);
   return to_vectors(rows);
 }
 // column[b[l]] - column[a[l]].
-PLATEN_INLINE Triple<Pack> gather_difference(const Vector3 *column, const int *b, const int *a) {
+PLATEN_INLINE Triple<Simd> gather_difference(const Vector3 *column, const int *b, const int *a) {
   Row rows[lanes];
   for (int l = 0; l < lanes; ++l)
     rows[l] = load_row(&column[b[l]].x) - load_row(&column[a[l]].x);

@@ -1,40 +1,40 @@
-// The foot of a centre on a face that moves or is flat, for one centre or for a pack of them: one text, so
-// that both give the same bits.
+// The closest point of a centre on a face that moves or is flat, for one centre or for a SIMD vector of them:
+// one text, so that both give the same bits.
 #pragma once
 
 #include "dem/laws/lanes.h"
 
 namespace platen::coupling {
 
-// Of MovingFace (faces.h), what the search for a foot reads.
+// Of MovingFace (faces.h), what the search for a closest point reads.
 template <class Real>
 struct FaceMap {
   dem::Triple<Real> e, f, t, linear, free, corner, normal;
-  Real square, constant, single_foot;
+  Real square, constant, single_closest;
 };
 
 template <class Real>
-struct FootOnFace {
+struct ClosestOnFace {
   Real u, v;
   dem::Triple<Real> out, along_u, along_v, normal;
 };
 
-namespace foot_search {
+namespace closest_search {
 constexpr double rim =
     1e-9; // share of the rim, in u and v, that is left to the general search, which knows edges
-// A start this far off the face does not come back onto it: the warp moves a foot by less.
+// A start this far off the face does not come back onto it: the warp moves a closest point by less.
 constexpr double far_off = 0.05;
 // A whole step of Newton's method leaves an error of the order of its square: less than 1e-12 of the face.
 constexpr double last_move = 1e-6;
 constexpr int most_steps = 8;
-} // namespace foot_search
+} // namespace closest_search
 
-namespace foot_search {
+namespace closest_search {
 template <class How, class Real>
 PLATEN_INLINE auto inside(const Real &a, double by) {
   return How::above(a, Real(by)) & How::above(Real(1 - by), a);
 }
-} // namespace foot_search
+} // namespace closest_search
 
 // Of FlatFace (faces.h), what its search reads.
 template <class Real>
@@ -43,35 +43,36 @@ struct FlatMap {
   Real square, constant, flat; // flat: 1, or 0
 };
 template <class Real>
-struct FootOnFlat {
+struct ClosestOnFlat {
   Real u, v, distance; // m, along the normal
 };
 
-// Where the result is true: the foot of a centre, given relative to the first corner, on a flat face, inside
-// it and off its rim.
+// Where the result is true: the closest point of a centre, given relative to the first corner, on a flat
+// face, inside it and off its rim.
 template <class How, class Real>
-PLATEN_INLINE auto search_flat_foot(const FlatMap<Real> &face, const dem::Triple<Real> &centre,
-                                    FootOnFlat<Real> &foot) {
-  using namespace foot_search;
+PLATEN_INLINE auto search_flat_closest(const FlatMap<Real> &face, const dem::Triple<Real> &centre,
+                                       ClosestOnFlat<Real> &closest) {
+  using namespace closest_search;
   using dem::dot, dem::scale;
   const Real first = dot(centre, face.linear) + face.constant, zeroth = dot(centre, face.free);
   const Real discriminant = first * first - Real(4.0) * face.square * zeroth;
-  foot.v = Real(-2.0) * zeroth / (first + How::with_sign(How::root(discriminant), first));
-  const dem::Triple<Real> along = face.e + scale(foot.v, face.t);
-  foot.u = dot(centre - scale(foot.v, face.f), along) / dot(along, along);
-  foot.distance = dot(centre, face.normal);
+  closest.v = Real(-2.0) * zeroth / (first + How::with_sign(How::root(discriminant), first));
+  const dem::Triple<Real> along = face.e + scale(closest.v, face.t);
+  closest.u = dot(centre - scale(closest.v, face.f), along) / dot(along, along);
+  closest.distance = dot(centre, face.normal);
   return How::above(face.flat, Real(0.5)) & How::at_least(discriminant, Real(0.0)) &
-         inside<How>(foot.v, rim) & inside<How>(foot.u, rim);
+         inside<How>(closest.v, rim) & inside<How>(closest.u, rim);
 }
 
-// Where the result is true (lane by lane of a pack): the foot inside the face, single and off its rim.
+// Where the result is true (lane by lane of a SIMD vector): the closest point inside the face, single and off
+// its rim.
 template <class How, class Real>
-PLATEN_INLINE auto search_foot(const FaceMap<Real> &face, const dem::Triple<Real> &centre,
-                               FootOnFace<Real> &foot) {
-  using namespace foot_search;
+PLATEN_INLINE auto search_closest(const FaceMap<Real> &face, const dem::Triple<Real> &centre,
+                                  ClosestOnFace<Real> &closest) {
+  using namespace closest_search;
   using dem::cross, dem::dot, dem::scale;
   const dem::Triple<Real> r = centre - face.corner;
-  auto found = How::at_least(face.single_foot, How::magnitude(dot(r, face.normal)));
+  auto found = How::at_least(face.single_closest, How::magnitude(dot(r, face.normal)));
   const Real first = dot(r, face.linear) + face.constant, zeroth = dot(r, face.free);
   const Real discriminant = first * first - Real(4.0) * face.square * zeroth;
   found = found & How::at_least(discriminant, Real(0.0));
@@ -97,14 +98,14 @@ PLATEN_INLINE auto search_foot(const FaceMap<Real> &face, const dem::Triple<Real
     moves = moves & How::above(moved, Real(last_move));
   }
   found = found & How::at_least(Real(last_move), moved) & inside<How>(u, rim) & inside<How>(v, rim);
-  foot.u = u;
-  foot.v = v;
-  foot.along_u = face.e + scale(v, face.t);
-  foot.along_v = face.f + scale(u, face.t);
-  foot.out = r - scale(u, face.e) - scale(v, foot.along_v);
-  const dem::Triple<Real> n = cross(foot.along_u, foot.along_v);
+  closest.u = u;
+  closest.v = v;
+  closest.along_u = face.e + scale(v, face.t);
+  closest.along_v = face.f + scale(u, face.t);
+  closest.out = r - scale(u, face.e) - scale(v, closest.along_v);
+  const dem::Triple<Real> n = cross(closest.along_u, closest.along_v);
   const Real size = How::root(dot(n, n));
-  foot.normal = {n.x / size, n.y / size, n.z / size};
+  closest.normal = {n.x / size, n.y / size, n.z / size};
   return found;
 }
 

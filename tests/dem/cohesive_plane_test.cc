@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "dem/laws/interface_form.h"
+#include "dem/laws/cohesive_form.h"
 #include "dem/laws/rotating_plane.h"
 
 namespace platen::dem {
@@ -37,11 +37,11 @@ Turn turn(Random &random) {
   return t;
 }
 
-TEST(interface_plane, a_displacement_turns_by_the_least_rotation_whatever_the_angle) {
+TEST(cohesive_plane, a_displacement_turns_by_the_least_rotation_whatever_the_angle) {
   Random random(11);
   for (int n = 0; n < 1000; ++n) {
     const Turn t = turn(random);
-    InterfaceMotion<double> m{};
+    CohesiveMotion<double> m{};
     m.distance = triple(t.after), m.travelled = triple(t.after - t.before);
     const PlaneMotion<double> plane(m, norm(t.after));
     const Vector3 carried = vector(plane.carried(triple(t.in_plane)));
@@ -51,11 +51,11 @@ TEST(interface_plane, a_displacement_turns_by_the_least_rotation_whatever_the_an
   }
 }
 
-TEST(interface_plane, a_spin_keeps_the_length_and_turns_by_its_angle) {
+TEST(cohesive_plane, a_spin_keeps_the_length_and_turns_by_its_angle) {
   Random random(12);
   for (int n = 0; n < 1000; ++n) {
     const Turn t = turn(random);
-    InterfaceMotion<double> m{};
+    CohesiveMotion<double> m{};
     m.distance = triple(t.after), m.travelled = triple(t.after - t.before);
     const double spin = 2 * (random.uniform() - 0.5); // rad
     m.spun_along = spin * norm(t.after);
@@ -68,11 +68,11 @@ TEST(interface_plane, a_spin_keeps_the_length_and_turns_by_its_angle) {
   }
 }
 
-TEST(interface_plane, what_the_step_adds_lies_in_the_plane_of_now) {
+TEST(cohesive_plane, what_the_step_adds_lies_in_the_plane_of_now) {
   Random random(13);
   for (int n = 0; n < 1000; ++n) {
     const Turn t = turn(random);
-    InterfaceMotion<double> m{};
+    CohesiveMotion<double> m{};
     m.distance = triple(t.after), m.travelled = triple(t.after - t.before), m.moved = m.travelled;
     const Vector3 added = vector(PlaneMotion<double>(m, norm(t.after)).carried(triple(Vector3{})));
     const Vector3 travelled = t.after - t.before;

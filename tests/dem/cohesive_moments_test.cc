@@ -14,7 +14,7 @@ using namespace examples;
 constexpr double young = 28e9, length = 0.01, bond_radius = 0.004; // Pa, m, m
 
 ElastoDamagePlastic::Parameters concrete() {
-  ElastoDamagePlastic::Parameters p = interface_of_concrete();
+  ElastoDamagePlastic::Parameters p = cohesive_bond_of_concrete();
   p.moments = true;
   p.moment_contribution = 0.5;
   return p;
@@ -29,7 +29,7 @@ struct Interface : OneBond<ElastoDamagePlastic> {
   double twisting() const { return 2 * law.shear_ratio() * bending(); }
 };
 
-TEST(InterfaceMoments, are_those_of_the_parallel_bond_while_whole) {
+TEST(CohesiveMoments, are_those_of_the_parallel_bond_while_whole) {
   ElastoDamagePlastic::Parameters p = concrete();
   p.tensile_strength = p.shear_strength = 0;
   Interface pair(p);
@@ -48,7 +48,7 @@ TEST(InterfaceMoments, are_those_of_the_parallel_bond_while_whole) {
 }
 
 // Sheared, bent and twisted, of spheres that differ: what is told is what acts, on each of both ends.
-TEST(InterfaceMoments, told_of_both_ends_are_those_that_act) {
+TEST(CohesiveMoments, told_of_both_ends_are_those_that_act) {
   Interface pair(concrete());
   pair.geometry.lever = 0.3;
   pair.move({2e-7, -3e-7, 1e-7}, {1e-5, 2e-5, -3e-5}, {-2e-5, 1e-5, 2e-5});
@@ -66,7 +66,7 @@ TEST(InterfaceMoments, told_of_both_ends_are_those_that_act) {
 // beta M R/I is a stress of tension at the skin, beta M R/J one of shear: damage begins at the strength,
 // falls along a line, and ends at 1 + delta times its angle with nothing left. What it took is the area under
 // the curve.
-TEST(InterfaceMoments, soften_by_the_stress_of_the_skin_and_take_the_area_under_their_curve) {
+TEST(CohesiveMoments, soften_by_the_stress_of_the_skin_and_take_the_area_under_their_curve) {
   for (const bool bends : {true, false}) {
     Interface pair(concrete());
     const double kn = pair.geometry.normal_stiffness, k = bends ? kn : pair.law.shear_ratio() * kn;
@@ -97,7 +97,7 @@ TEST(InterfaceMoments, soften_by_the_stress_of_the_skin_and_take_the_area_under_
 }
 
 // A pressed interface does not part by a bending that leaves its skin pressed.
-TEST(InterfaceMoments, of_a_pressed_interface_damage_once_its_skin_is_pulled) {
+TEST(CohesiveMoments, of_a_pressed_interface_damage_once_its_skin_is_pulled) {
   Interface pair(concrete());
   const double kn = pair.geometry.normal_stiffness, pressed = 10e6;
   pair.move({0, 0, -pressed / kn}, {}, {});
@@ -107,7 +107,7 @@ TEST(InterfaceMoments, of_a_pressed_interface_damage_once_its_skin_is_pulled) {
   EXPECT_GT(pair.state.tension_damage, 0);
 }
 
-TEST(InterfaceMoments, close_the_energy_balance_through_damage_failure_and_friction) {
+TEST(CohesiveMoments, close_the_energy_balance_through_damage_failure_and_friction) {
   double worst[2] = {0, 0};
   for (const int fine : {0, 1}) {
     unsigned random = 11;
@@ -132,7 +132,7 @@ TEST(InterfaceMoments, close_the_energy_balance_through_damage_failure_and_frict
   EXPECT_LT(worst[1], 0.3 * worst[0]);
 }
 
-TEST(InterfaceMoments, a_rigid_turn_stores_nothing) {
+TEST(CohesiveMoments, a_rigid_turn_stores_nothing) {
   Interface pair(concrete());
   pair.bend(1e-4), pair.twist(2e-4);
   const double energy = pair.now.energy;
@@ -156,7 +156,7 @@ ModelSettings bending(bool moments = true) {
 
 // Of touching spheres with the same k_n and k_s, the largest step is that of parallel bonds: moments are in
 // it.
-TEST(InterfaceMoments, are_in_the_largest_step_and_off_are_in_nothing) {
+TEST(CohesiveMoments, are_in_the_largest_step_and_off_are_in_nothing) {
   ModelSettings parallel = bonded();
   parallel.bond_layout.modulus = 28e9;
   parallel_bond(parallel).stiffness_ratio = 0.5 / 1.2;

@@ -7,7 +7,7 @@
 namespace platen::dem {
 
 template <class Real>
-struct InterfaceGeometry {
+struct CohesiveGeometry {
   Real rest_length;                 // |D|, m
   Real lever;                       // a
   Real normal_stiffness;            // k_n, Pa/m
@@ -19,7 +19,7 @@ struct InterfaceGeometry {
 };
 // From the last step to this one.
 template <class Real>
-struct InterfaceMotion {
+struct CohesiveMotion {
   Triple<Real> distance;  // d, m, now
   Triple<Real> travelled; // of the second centre against the first, m
   // The same at their point of contact, where rotations count too, m; where the law needs orientations with
@@ -31,7 +31,7 @@ struct InterfaceMotion {
   Triple<Real> turned_i = {}, turned_j = {};
 };
 template <class Real>
-struct InterfaceResponse {
+struct CohesiveResponse {
   Triple<Real> force;   // N, on the first
   Real normal, tension; // F_n, N; T, Pa
   Triple<Real> shear;   // N, on the first
@@ -58,8 +58,8 @@ struct PlaneMotion {
   Triple<Real> moved;           // in the plane, m
   Real half, cosine, sine;      // rad, of the spin; of what is turned
 
-  // `length` is |d|. One quotient serves both lengths and the spin: a pack of eight waits for each.
-  PLATEN_INLINE PlaneMotion(const InterfaceMotion<Real> &m, const Real &length) {
+  // `length` is |d|. One quotient serves both lengths and the spin: a SIMD vector of eight waits for each.
+  PLATEN_INLINE PlaneMotion(const CohesiveMotion<Real> &m, const Real &length) {
     const Triple<Real> &d = m.distance, before = d - m.travelled;
     const Real square = length * length, length_before = root(dot(before, before));
     const Real both = length * length_before + dot(before, d); // m^2
@@ -94,7 +94,7 @@ struct PlaneMotion {
 // Of bonds that have failed with a plastic closing of `plastic` (Pa): whether none of them is pressed, nor
 // was when its spring of friction was last slid, so that nothing acts and nothing changes.
 template <class Real>
-PLATEN_INLINE bool are_apart(const InterfaceGeometry<Real> &g, const Triple<Real> &distance,
+PLATEN_INLINE bool are_apart(const CohesiveGeometry<Real> &g, const Triple<Real> &distance,
                              const Real &plastic, const Triple<Real> &spring) {
   const Real length = root(dot(distance, distance));
   const Real pressed = g.normal_stiffness * (g.rest_length - length) - plastic; // Pa

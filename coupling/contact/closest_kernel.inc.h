@@ -1,11 +1,10 @@
-// Bodies of the foot kernels; the including file sets PLATEN_LANES, PLATEN_FEET, PLATEN_FLAT_FEET and
-// PLATEN_SET_FACES.
-// Compiled without contraction, as the rest of the layer is.
+// Bodies of the closest point kernels; the including file sets PLATEN_LANES, PLATEN_CLOSEST_POINTS,
+// PLATEN_FLAT_CLOSEST_POINTS and PLATEN_SET_FACES. Compiled without contraction, as the rest of the layer is.
+#include "coupling/contact/closest_kernel.h"
+#include "coupling/contact/closest_on_face.h"
 #include "coupling/contact/face_of_corners.h"
-#include "coupling/contact/foot_kernel.h"
-#include "coupling/contact/foot_of_face.h"
 #include "dem/kernels/lane_mask.inc.h"
-#include "dem/kernels/pack.inc.h"
+#include "dem/kernels/simd.inc.h"
 
 namespace platen::coupling::kernels {
 namespace {
@@ -15,11 +14,11 @@ using dem::Rotation;
 using dem::scale;
 using dem::Triple;
 using dem::kernels::lanes;
-using dem::kernels::Pack;
+using dem::kernels::Simd;
 
 // Columns of the eight doubles that begin at a place of each face.
 struct Eight {
-  Rotation<Pack> first, second;
+  Rotation<Simd> first, second;
 };
 template <class Face>
 PLATEN_INLINE Eight eight_at(const Face *const *face, std::size_t place) {
@@ -43,25 +42,25 @@ PLATEN_INLINE Eight read_map(const Face *const *face, Map &m) {
   return c;
 }
 
-PLATEN_INLINE FaceMap<Pack> map_of(const MovingFace *const *face) {
-  FaceMap<Pack> m;
+PLATEN_INLINE FaceMap<Simd> map_of(const MovingFace *const *face) {
+  FaceMap<Simd> m;
   const Eight rest = read_map(face, m);
   m.corner = {rest.first.x, rest.first.y, rest.first.z};
   m.normal = {rest.second.w, rest.second.x, rest.second.y};
-  m.single_foot = rest.second.z;
+  m.single_closest = rest.second.z;
   return m;
 }
 
-PLATEN_INLINE FlatMap<Pack> map_of(const FlatFace *const *face) {
+PLATEN_INLINE FlatMap<Simd> map_of(const FlatFace *const *face) {
   static_assert(sizeof(FlatFace) == 24 * sizeof(double));
-  FlatMap<Pack> m;
+  FlatMap<Simd> m;
   const Eight rest = read_map(face, m);
   m.normal = {rest.first.x, rest.first.y, rest.first.z};
   m.flat = rest.second.w;
   return m;
 }
 
-// Lanes of a pack from `first` on; the last once more where there are fewer.
+// Lanes of a SIMD vector from `first` on; the last once more where there are fewer.
 struct Lanes {
   std::size_t of[lanes];
 
@@ -76,60 +75,60 @@ struct Lanes {
   }
 };
 
-PLATEN_INLINE void write(double *to, const Pack &a) {
+PLATEN_INLINE void write(double *to, const Simd &a) {
   __builtin_memcpy(to, &a.v, sizeof a.v);
 }
 template <class Columns>
-PLATEN_INLINE void write(Columns &to, std::size_t first, const Triple<Pack> &a) {
+PLATEN_INLINE void write(Columns &to, std::size_t first, const Triple<Simd> &a) {
   write(&to[0][first], a.x), write(&to[1][first], a.y), write(&to[2][first], a.z);
 }
 
 // bilinear_weights() (closest_point.h).
-PLATEN_INLINE void write_weights(SurfacePoints &to, std::size_t first, const Pack &u, const Pack &v) {
-  const Pack one = Pack(1.0), w[3] = {(one - u) * (one - v), u * (one - v), u * v};
+PLATEN_INLINE void write_weights(SurfacePoints &to, std::size_t first, const Simd &u, const Simd &v) {
+  const Simd one = Simd(1.0), w[3] = {(one - u) * (one - v), u * (one - v), u * v};
   write(&to.u[first], u), write(&to.v[first], v);
   for (int corner = 0; corner < 3; ++corner)
     write(&to.weights[corner][first], w[corner]);
   write(&to.weights[3][first], one - ((w[0] + w[1]) + w[2]));
 }
 
-// As a surface search sets a point by its foot.
-PLATEN_INLINE void write_foot(SurfacePoints &to, std::size_t first, const FootOnFace<Pack> &foot,
-                              const Triple<Pack> &centre) {
-  write_weights(to, first, foot.u, foot.v);
-  write(to.arm, first, scale(Pack(-1.0), foot.out)), write(to.place, first, centre - foot.out);
-  write(to.normal, first, foot.normal);
-  write(to.along_u, first, foot.along_u), write(to.along_v, first, foot.along_v);
-  write(&to.distance[first], dot(foot.out, foot.normal));
-  write(&to.distance_squared[first], dot(foot.out, foot.out));
+// As a surface search sets a point by its closest point.
+PLATEN_INLINE void write_point(SurfacePoints &to, std::size_t first, const ClosestOnFace<Simd> &closest,
+                               const Triple<Simd> &centre) {
+  write_weights(to, first, closest.u, closest.v);
+  write(to.arm, first, scale(Simd(-1.0), closest.out)), write(to.place, first, centre - closest.out);
+  write(to.normal, first, closest.normal);
+  write(to.along_u, first, closest.along_u), write(to.along_v, first, closest.along_v);
+  write(&to.distance[first], dot(closest.out, closest.normal));
+  write(&to.distance_squared[first], dot(closest.out, closest.out));
 }
-PLATEN_INLINE void write_foot(SurfacePoints &to, std::size_t first, const FootOnFlat<Pack> &foot,
-                              const Triple<Pack> &normal, const Triple<Pack> &centre) {
-  const Triple<Pack> arm = scale(Pack(-foot.distance), normal);
-  write_weights(to, first, foot.u, foot.v);
+PLATEN_INLINE void write_point(SurfacePoints &to, std::size_t first, const ClosestOnFlat<Simd> &closest,
+                               const Triple<Simd> &normal, const Triple<Simd> &centre) {
+  const Triple<Simd> arm = scale(Simd(-closest.distance), normal);
+  write_weights(to, first, closest.u, closest.v);
   write(to.arm, first, arm), write(to.normal, first, normal), write(to.place, first, centre + arm);
-  const Triple<Pack> none = dem::no_vector<Pack>();
+  const Triple<Simd> none = dem::no_vector<Simd>();
   write(to.along_u, first, none), write(to.along_v, first, none);
-  write(&to.distance[first], foot.distance);
-  write(&to.distance_squared[first], foot.distance * foot.distance);
+  write(&to.distance[first], closest.distance);
+  write(&to.distance_squared[first], closest.distance * closest.distance);
 }
 
 // Four members of eight faces that stand beside each other.
-PLATEN_INLINE void scatter(const Rotation<Pack> &four, std::size_t place, int count,
+PLATEN_INLINE void scatter(const Rotation<Simd> &four, std::size_t place, int count,
                            MovingFace *const *face) {
   dem::kernels::Row rows[lanes];
   dem::kernels::to_rows(four, rows);
   for (int l = 0; l < count; ++l)
     dem::kernels::store_row(&face[l]->e.x + place, rows[l]);
 }
-PLATEN_INLINE void scatter(const FaceOfCorners<Pack> &f, int count, MovingFace *const *face) {
+PLATEN_INLINE void scatter(const FaceOfCorners<Simd> &f, int count, MovingFace *const *face) {
   static_assert(sizeof(MovingFace) == 40 * sizeof(double));
   scatter({f.e.x, f.e.y, f.e.z, f.f.x}, 0, count, face);
   scatter({f.f.y, f.f.z, f.t.x, f.t.y}, 4, count, face);
   scatter({f.t.z, f.linear.x, f.linear.y, f.linear.z}, 8, count, face);
   scatter({f.free.x, f.free.y, f.free.z, f.square}, 12, count, face);
   scatter({f.constant, f.corner.x, f.corner.y, f.corner.z}, 16, count, face);
-  scatter({f.normal.x, f.normal.y, f.normal.z, f.single_foot}, 20, count, face);
+  scatter({f.normal.x, f.normal.y, f.normal.z, f.single_closest}, 20, count, face);
   scatter({f.along.x, f.along.y, f.along.z, f.across.x}, 24, count, face);
   scatter({f.across.y, f.across.z, f.middle.x, f.middle.y}, 28, count, face);
   scatter({f.middle.z, f.half.x, f.half.y, f.half.z}, 32, count, face);
@@ -137,9 +136,9 @@ PLATEN_INLINE void scatter(const FaceOfCorners<Pack> &f, int count, MovingFace *
 
 } // namespace
 
-std::uint32_t PLATEN_FLAT_FEET(const FlatFace *const *face, const Vector3 *const *corner,
-                               const Vector3 *centre, const int *at, std::size_t count,
-                               SurfacePoints &points) {
+std::uint32_t PLATEN_FLAT_CLOSEST_POINTS(const FlatFace *const *face, const Vector3 *const *corner,
+                                         const Vector3 *centre, const int *at, std::size_t count,
+                                         SurfacePoints &points) {
   std::uint32_t found = 0;
   for (std::size_t first = 0; first < count; first += lanes) {
     const Lanes in(first, count);
@@ -149,31 +148,31 @@ std::uint32_t PLATEN_FLAT_FEET(const FlatFace *const *face, const Vector3 *const
     in.pick(face, faces), in.pick(at, rows);
     for (int l = 0; l < lanes; ++l)
       corners[l] = dem::kernels::load_vector(corner[in.of[l]]);
-    const Triple<Pack> centres = dem::kernels::gather(centre, rows);
-    const Triple<Pack> from = centres - dem::kernels::to_vectors(corners);
-    const FlatMap<Pack> map = map_of(faces);
-    FootOnFlat<Pack> feet;
-    const auto inside = search_flat_foot<dem::kernels::OfLanes>(map, from, feet);
-    write_foot(points, first, feet, map.normal, centres);
+    const Triple<Simd> centres = dem::kernels::gather(centre, rows);
+    const Triple<Simd> from = centres - dem::kernels::to_vectors(corners);
+    const FlatMap<Simd> map = map_of(faces);
+    ClosestOnFlat<Simd> closest;
+    const auto inside = search_flat_closest<dem::kernels::OfLanes>(map, from, closest);
+    write_point(points, first, closest, map.normal, centres);
     found |= static_cast<std::uint32_t>(dem::kernels::bits_of(inside)) << first;
   }
   return found;
 }
 
-std::uint32_t PLATEN_FEET(const MovingFace *const *face, const Vector3 *centre, const int *at,
-                          std::size_t count, SurfacePoints &points) {
+std::uint32_t PLATEN_CLOSEST_POINTS(const MovingFace *const *face, const Vector3 *centre, const int *at,
+                                    std::size_t count, SurfacePoints &points) {
   std::uint32_t found = 0;
   for (std::size_t first = 0; first < count; first += lanes) {
     const Lanes in(first, count);
     const MovingFace *faces[lanes];
     int rows[lanes];
     in.pick(face, faces), in.pick(at, rows);
-    FootOnFace<Pack> feet;
-    const Triple<Pack> centres = dem::kernels::gather(centre, rows);
-    const auto inside = search_foot<dem::kernels::OfLanes>(map_of(faces), centres, feet);
+    ClosestOnFace<Simd> closest;
+    const Triple<Simd> centres = dem::kernels::gather(centre, rows);
+    const auto inside = search_closest<dem::kernels::OfLanes>(map_of(faces), centres, closest);
     const unsigned bits = dem::kernels::bits_of(inside);
     if (bits == 0) continue;
-    write_foot(points, first, feet, centres);
+    write_point(points, first, closest, centres);
     found |= static_cast<std::uint32_t>(bits) << first;
   }
   return found;
@@ -185,14 +184,14 @@ void PLATEN_SET_FACES(const Vector3 *vertex, const int *corners, const int *numb
     const Lanes in(first, count);
     int faces[lanes];
     in.pick(number, faces);
-    Triple<Pack> q[4];
+    Triple<Simd> q[4];
     for (int corner = 0; corner < 4; ++corner) {
       dem::kernels::Row rows[lanes];
       for (int l = 0; l < lanes; ++l)
         rows[l] = dem::kernels::load_vector(vertex + corners[4 * faces[l] + corner]);
       q[corner] = dem::kernels::to_vectors(rows);
     }
-    FaceOfCorners<Pack> face;
+    FaceOfCorners<Simd> face;
     const unsigned whole = dem::kernels::bits_of(set_face<dem::kernels::OfLanes>(q, face));
     MovingFace *to[lanes];
     for (int l = 0; l < lanes; ++l)

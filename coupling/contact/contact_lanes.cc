@@ -1,9 +1,9 @@
-// Rows of a contact layer in packs: what the kernel is given.
+// Rows of a contact layer in SIMD vectors: what the kernel is given.
 #include "coupling/contact/contact_layer.h"
 
 namespace platen::coupling {
 
-void ContactLayer::compute_in_packs(const dem::Particles &p, const fem::LoadedSurface &body, double dt,
+void ContactLayer::compute_in_lanes(const dem::Particles &p, const fem::LoadedSurface &body, double dt,
                                     std::size_t first, std::size_t count, const SurfacePoints &points) {
   kernels::LayerColumns c{};
   c.particle = particle_.data(), c.offset = offset_.data(), c.dashpot = dashpot_.data();

@@ -29,7 +29,7 @@ struct SofteningByHand {
   double fracture_energy() const { return 0.5 * strength * (end() - limit()); }
 };
 
-struct InterfaceSection {
+struct CohesiveSection {
   double length = 0, area = 0, modulus = 0;                                                   // m, m^2, Pa
   double shear_ratio = 0;                                                                     // k_s / k_n
   double tensile_strength = 0, shear_strength = 0, friction_static = 0, friction_dynamic = 0; // Pa; 0: never
@@ -48,29 +48,29 @@ struct InterfaceSection {
   double closing_at(double stress) const;       // m, inverse of the same
 };
 // Of a law that remembers; std::logic_error of another.
-InterfaceSection section_of(const dem::BondLaw &law, double length, double area, double modulus);
+CohesiveSection section_of(const dem::BondLaw &law, double length, double area, double modulus);
 
 // One bond on its path. Places are absolute; between them the path is straight and is to end at the kinks.
-struct InterfacePlace {
+struct CohesivePlace {
   double opening = 0, slip = 0; // m
   double turn = 0;              // rad, of one sphere against the other
 };
-struct InterfaceLoad {
+struct CohesiveLoad {
   double normal = 0, shear = 0; // N, tension positive; on the driven sphere by its holder
   double moment = 0;            // N m
 };
 
-class InterfaceByHand {
+class CohesiveByHand {
 public:
   // A slip ratio ties slip to opening (combined path); without one, normal and shear loads are of their own:
   // slip only under compression that stays.
-  explicit InterfaceByHand(const InterfaceSection &section, bool combined = false, double slip_ratio = 0);
+  explicit CohesiveByHand(const CohesiveSection &section, bool combined = false, double slip_ratio = 0);
 
   // Where on the path from here the lines bend, as shares of it above 0 and below 1, ascending; on both
   // sides of a failure.
-  std::vector<double> kinks(const InterfacePlace &to) const;
-  void go(const InterfacePlace &to);
-  InterfaceLoad load() const { return now_; }
+  std::vector<double> kinks(const CohesivePlace &to) const;
+  void go(const CohesivePlace &to);
+  CohesiveLoad load() const { return now_; }
   double stored() const;                                 // J
   double work() const { return work_; }                  // J, area under the lines so far
   double dissipated() const { return work_ - stored(); } // J
@@ -94,11 +94,11 @@ private:
   double slip_of(double own) const;   // m, inverse of the same
   void update();
 
-  InterfaceSection section_;
+  CohesiveSection section_;
   bool combined_;
   double slip_ratio_;
-  InterfacePlace at_;
-  InterfaceLoad now_;
+  CohesivePlace at_;
+  CohesiveLoad now_;
   double deepest_ = 0, plastic_ = 0; // m: closing so far, and what of it stays
   double widest_ = 0, farthest_ = 0; // m: opening from where it unloads, slip to either side
   double slider_ = 0;                // m, stretch of the spring of friction

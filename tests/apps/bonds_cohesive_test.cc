@@ -26,8 +26,8 @@ BondRun run_pair(const Words &overrides) {
       .at(0);
 }
 
-const InterfaceRow &last(const BondRun &run) {
-  return run.interface.rows.back();
+const CohesiveRow &last(const BondRun &run) {
+  return run.cohesive.rows.back();
 }
 
 // The row at a place on the driven way, the first one.
@@ -43,13 +43,13 @@ double force_at(const BondRun &run, double displacement, std::size_t from = 0) {
 }
 
 void expect_by_hand(const BondRun &run) {
-  EXPECT_LT(run.interface.largest_difference(), close);
-  const InterfaceReading &m = last(run).measured;
+  EXPECT_LT(run.cohesive.largest_difference(), close);
+  const CohesiveReading &m = last(run).measured;
   EXPECT_NEAR(m.dissipated, last(run).dissipated_by_hand, close * m.work);
   EXPECT_NEAR(m.work, m.stored + m.dissipated, close * m.work);
 }
 
-TEST(bonds_interface, tension_softens_to_its_end_and_takes_the_energy_of_the_triangle) {
+TEST(bonds_cohesive, tension_softens_to_its_end_and_takes_the_energy_of_the_triangle) {
   for (const char *steps : {"Pair test/Steps = 7", "Pair test/Steps = 500"}) {
     const BondRun run = run_pair({steps});
     const double limit = 5e6 / kn;
@@ -61,34 +61,34 @@ TEST(bonds_interface, tension_softens_to_its_end_and_takes_the_energy_of_the_tri
     const double whole = .5 * 5e6 * 1.2 * limit * area;
     EXPECT_NEAR(last(run).measured.dissipated, whole, close * whole);
     EXPECT_NEAR(last(run).measured.work, whole, close * whole);
-    EXPECT_NEAR(run.interface.fracture_energy, .5 * 5e6 * .2 * limit, 2 * close * 5e6 * limit);
+    EXPECT_NEAR(run.cohesive.fracture_energy, .5 * 5e6 * .2 * limit, 2 * close * 5e6 * limit);
     EXPECT_EQ(last(run).measured.stored, 0);
     expect_by_hand(run);
   }
 }
 
-TEST(bonds_interface, a_given_fracture_energy_is_what_it_takes) {
+TEST(bonds_cohesive, a_given_fracture_energy_is_what_it_takes) {
   for (const char *radius : {"Specimen/Sphere radius = 1 mm", "Specimen/Sphere radius = 0.25 mm"}) {
     const BondRun run =
         run_pair({radius, "Bond/Fracture energy tension = 4", "Pair test/Displacement = 3 um"});
-    EXPECT_NEAR(run.interface.fracture_energy, 4, close * 4) << radius;
-    EXPECT_NEAR(run.interface.fracture_energy_by_hand, 4, 1e-12 * 4);
+    EXPECT_NEAR(run.cohesive.fracture_energy, 4, close * 4) << radius;
+    EXPECT_NEAR(run.cohesive.fracture_energy_by_hand, 4, 1e-12 * 4);
     expect_by_hand(run);
   }
 }
 
-TEST(bonds_interface, damaged_tension_unloads_by_the_secant_and_comes_back) {
+TEST(bonds_cohesive, damaged_tension_unloads_by_the_secant_and_comes_back) {
   const double limit = 5e6 / kn; // .357 um
   const BondRun run = run_pair({"Pair test/Displacement =",
                                 "Pair test/Turns = 0.392857142857143 um, "
                                 "0.1 um, 0.5 um"});
   const std::size_t turn = row_at(run, 1.1 * limit);
   EXPECT_NEAR(run.path.rows[turn].force, 2.5e6 * area, 1e-5 * 5e6 * area); // half of the softening
-  EXPECT_NEAR(run.interface.rows[turn].measured.tension_damage, .5, 1e-6);
+  EXPECT_NEAR(run.cohesive.rows[turn].measured.tension_damage, .5, 1e-6);
   const std::size_t low = row_at(run, .1e-6, turn);
   EXPECT_NEAR(run.path.rows[low].force / .1e-6, 2.5e6 * area / (1.1 * limit), 1e-5 * kn * area);
-  EXPECT_NEAR(run.interface.rows[low].measured.dissipated, run.interface.rows[turn].measured.dissipated,
-              close * run.interface.rows[turn].measured.dissipated);
+  EXPECT_NEAR(run.cohesive.rows[low].measured.dissipated, run.cohesive.rows[turn].measured.dissipated,
+              close * run.cohesive.rows[turn].measured.dissipated);
   const std::size_t again = row_at(run, 1.1 * limit, low);
   EXPECT_NEAR(run.path.rows[again].force, run.path.rows[turn].force, 1e-5 * 5e6 * area);
   const double whole = .5 * 5e6 * 1.2 * limit * area;
@@ -98,7 +98,7 @@ TEST(bonds_interface, damaged_tension_unloads_by_the_secant_and_comes_back) {
 
 // LCS 20, 45, 70 MPa at slopes of a third, a twelfth and a 22nd: strains 7.142857e-4, 3.392857e-3,
 // 1.4107143e-2.
-TEST(bonds_interface, compression_yields_along_its_branches_and_unloads_elastically) {
+TEST(bonds_cohesive, compression_yields_along_its_branches_and_unloads_elastically) {
   const BondRun run =
       run_pair({"Pair test/Path = compression", "Pair test/Displacement =", "Pair test/Turns = -40 um, 0"});
   const double strains[] = {7.142857142857143e-4, 3.392857142857143e-3, 1.4107142857142857e-2};
@@ -125,7 +125,7 @@ TEST(bonds_interface, compression_yields_along_its_branches_and_unloads_elastica
   expect_by_hand(run);
 }
 
-TEST(bonds_interface, shear_softens_from_cohesion_and_static_friction_to_dynamic_friction) {
+TEST(bonds_cohesive, shear_softens_from_cohesion_and_static_friction_to_dynamic_friction) {
   const double pressure = 10e6, strength = 16e6 + .9 * pressure, residual = .25 * pressure;
   const double limit = strength / ks, stretch = residual / ks;
   const BondRun run =
@@ -146,7 +146,7 @@ TEST(bonds_interface, shear_softens_from_cohesion_and_static_friction_to_dynamic
   expect_by_hand(run);
 }
 
-TEST(bonds_interface, sliding_back_sticks_by_the_spring_of_friction_first) {
+TEST(bonds_cohesive, sliding_back_sticks_by_the_spring_of_friction_first) {
   const double residual = 2.5e6;
   const BondRun run = run_pair({"Pair test/Path = shear", "Pair test/Pressure = 10 MPa",
                                 "Pair test/Displacement =", "Pair test/Turns = 10 um, -10 um, 0"});
@@ -158,17 +158,17 @@ TEST(bonds_interface, sliding_back_sticks_by_the_spring_of_friction_first) {
 }
 
 // Half damaged in shear, unloaded and loaded again.
-TEST(bonds_interface, damaged_shear_unloads_by_its_secant_and_its_friction) {
+TEST(bonds_cohesive, damaged_shear_unloads_by_its_secant_and_its_friction) {
   const BondRun run = run_pair({"Pair test/Path = shear", "Pair test/Pressure = 5 MPa",
                                 "Pair test/Displacement =", "Pair test/Turns = 5 um, 0, 12 um"});
   EXPECT_EQ(run.broken_shear, 1);
   expect_by_hand(run);
 }
 
-TEST(bonds_interface, pure_shear_takes_the_energy_of_its_triangle) {
+TEST(bonds_cohesive, pure_shear_takes_the_energy_of_its_triangle) {
   const BondRun run = run_pair(
       {"Pair test/Path = shear", "Pair test/Displacement = 6 um", "Bond/Fracture energy shear = 25"});
-  EXPECT_NEAR(run.interface.fracture_energy, 25, close * 25);
+  EXPECT_NEAR(run.cohesive.fracture_energy, 25, close * 25);
   EXPECT_NEAR(last(run).measured.dissipated, area * (25 + .5 * 16e6 * 16e6 / ks), close * area * 50);
   EXPECT_EQ(run.path.rows.back().force, 0);
   expect_by_hand(run);
@@ -176,7 +176,7 @@ TEST(bonds_interface, pure_shear_takes_the_energy_of_its_triangle) {
 
 // Opening and slip that use up equal shares of both strengths: the coupled line fails at half of each, the
 // uncoupled one at all.
-TEST(bonds_interface, the_coupled_line_of_failure_adds_both_shares) {
+TEST(bonds_cohesive, the_coupled_line_of_failure_adds_both_shares) {
   const double ratio = 16e6 / ks / (5e6 / kn); // 7.68
   for (const bool coupled : {false, true}) {
     const BondRun run =
@@ -198,7 +198,7 @@ TEST(bonds_interface, the_coupled_line_of_failure_adds_both_shares) {
 }
 
 // The direction that is used up first takes the other one with it.
-TEST(bonds_interface, what_one_direction_uses_up_the_other_lets_go) {
+TEST(bonds_cohesive, what_one_direction_uses_up_the_other_lets_go) {
   const BondRun run = run_pair({"Pair test/Path = combined", "Pair test/Displacement = 0.6 um",
                                 "Pair test/Slip ratio = 3", "Bond/Failure line = coupled"});
   EXPECT_EQ(run.path.rows.back().intact, 0);
@@ -207,7 +207,7 @@ TEST(bonds_interface, what_one_direction_uses_up_the_other_lets_go) {
   expect_by_hand(run);
 }
 
-TEST(bonds_interface, a_cycle_through_tension_and_compression_is_the_one_by_hand) {
+TEST(bonds_cohesive, a_cycle_through_tension_and_compression_is_the_one_by_hand) {
   const BondRun run =
       run_pair({"Pair test/Displacement =", "Pair test/Turns = 0.38 um, -5 um, -3 um, -3.3 um, -2 um",
                 "Pair test/Steps = 200"});
@@ -222,7 +222,7 @@ Words turning(Words more) {
 }
 
 // The skin's strength 5 MPa at beta R_b of the axis: M = sigma I/(beta R_b), and the turn that goes with it.
-TEST(bonds_interface, bending_softens_from_the_strength_of_the_skin) {
+TEST(bonds_cohesive, bending_softens_from_the_strength_of_the_skin) {
   const BondRun run = run_pair(turning({"Pair test/Path = bending", "Pair test/Displacement = 1.2 um"}));
   expect_by_hand(run);
   const double inertia = .25 * area * 1e-6, strength = 5e6 * inertia / (.5 * 1e-3);
@@ -235,7 +235,7 @@ TEST(bonds_interface, bending_softens_from_the_strength_of_the_skin) {
   EXPECT_EQ(last(run).load.normal, 0);
 }
 
-TEST(bonds_interface, twisting_softens_from_the_strength_of_the_skin_in_shear) {
+TEST(bonds_cohesive, twisting_softens_from_the_strength_of_the_skin_in_shear) {
   const BondRun run = run_pair(turning({"Pair test/Path = twisting", "Pair test/Displacement = 12 um"}));
   expect_by_hand(run);
   const double inertia = .5 * area * 1e-6, strength = 16e6 * inertia / (.5 * 1e-3);
@@ -245,7 +245,7 @@ TEST(bonds_interface, twisting_softens_from_the_strength_of_the_skin_in_shear) {
 
 // A skin that is only twisted is not pulled, so that no line couples it, whatever the last digits of a length
 // are.
-TEST(bonds_interface, what_has_been_bent_too_far_turns_back_by_the_secant_and_on_by_what_is_left) {
+TEST(bonds_cohesive, what_has_been_bent_too_far_turns_back_by_the_secant_and_on_by_what_is_left) {
   for (const char *line : {"Bond/Failure line = uncoupled", "Bond/Failure line = coupled"})
     for (const char *path : {"bending", "twisting"})
       for (const char *set : {"best", "baseline"}) {
@@ -255,13 +255,13 @@ TEST(bonds_interface, what_has_been_bent_too_far_turns_back_by_the_secant_and_on
                      std::string("Integration/Instruction set = ") + set,
                      "Pair test/Displacement =", "Pair test/Turns = 0.8 um, -0.9 um, 0.85 um, 12 um"}));
         expect_by_hand(run);
-        measured::expect_below(51, "load_off_of_softening_moments", run.interface.largest_difference(),
+        measured::expect_below(51, "load_off_of_softening_moments", run.cohesive.largest_difference(),
                                close);
         EXPECT_EQ(run.path.rows.back().moment, 0);
       }
 }
 
-TEST(bonds_interface, a_skin_that_does_not_count_never_breaks) {
+TEST(bonds_cohesive, a_skin_that_does_not_count_never_breaks) {
   const BondRun run = run_pair({"Effects/Interface moments = on", "Bond/Moment contribution = 0",
                                 "Pair test/Path = bending", "Pair test/Displacement = 5 um"});
   expect_by_hand(run);
@@ -269,14 +269,14 @@ TEST(bonds_interface, a_skin_that_does_not_count_never_breaks) {
   EXPECT_TRUE(std::isinf(run.strength_by_hand));
 }
 
-TEST(bonds_interface, without_rotation_the_normal_law_is_the_same) {
+TEST(bonds_cohesive, without_rotation_the_normal_law_is_the_same) {
   const BondRun with = run_pair({}), without = run_pair({"Effects/Rotation = off"});
   ASSERT_EQ(with.path.rows.size(), without.path.rows.size());
   for (std::size_t k = 0; k < with.path.rows.size(); ++k)
     EXPECT_EQ(with.path.rows[k].force, without.path.rows[k].force);
 }
 
-TEST(bonds_interface, what_cannot_be_led_is_refused) {
+TEST(bonds_cohesive, what_cannot_be_led_is_refused) {
   const std::pair<Words, const char *> faults[] = {
       {{"Pair test/Path = bending"}, "Effects/Interface moments = on"},
       {{"Pair test/Path = twisting", "Effects/Interface moments = on", "Effects/Rotation = off"},
