@@ -7,8 +7,8 @@
 namespace platen::dem {
 namespace {
 
-// Onate's dashpot acts along the normal alone, c_n = 2 gamma alpha (r_c/|D|) sqrt(m k_n), with alpha r_c^2
-// the square of the bond's radius (docs/theory.md).
+// Onate's dashpot acts only along the normal, c_n = 2 gamma alpha (r_c/|D|) sqrt(m k_n), with alpha r_c^2 the
+// square of the bond's radius (docs/theory.md).
 double fraction_of(const Bonds &b, std::size_t k, double smaller_radius, double alpha) {
   if (!bonds_by_range(b.law)) return alpha;
   return alpha * b.bond_radius[k] * b.bond_radius[k] / (smaller_radius * b.rest_length[k]);
@@ -16,7 +16,7 @@ double fraction_of(const Bonds &b, std::size_t k, double smaller_radius, double 
 
 } // namespace
 
-// Where the ratios differ from bond to bond the smallest holds, so that no dashpot is above its fraction of
+// If the ratios differ between bonds, the smallest is used, so that no dashpot is above its fraction of
 // critical.
 void Bonds::add_dashpots(const Particles &p, double alpha) {
   const bool moments = p.has_rotation() && bends(law);

@@ -57,15 +57,14 @@ kernels::CohesiveColumns cohesive_columns_of(const Particles &p, const Bonds &b)
   return columns;
 }
 
-// Rows whose first particle lies in a block of particles, some at a time: body(sum, first, last).
+// Calls body(sum, first, last) for portions of the rows whose first particle lies in a block of particles.
 template <class Body>
 std::vector<BondTotals> totals_by_blocks(const Particles &p, const Bonds &b, const BlockList *listed,
                                          const Body &body) {
   std::vector<BondTotals> totals(number_of_blocks(p.size()));
   for_listed_blocks(listed, p.size(),
                     [&](std::size_t first_particle, std::size_t end_particle, std::size_t block) {
-                      // Blocks may not be cut yet: within them rows may stand in any order, but those of one
-                      // block together.
+                      // Blocks may not be cut yet: rows of one block stand together, but in any order.
                       const auto row_of = [&](std::size_t particle) {
                         const auto before = [&](int row) { return static_cast<std::size_t>(row) < particle; };
                         const auto at = std::partition_point(b.first.begin(), b.first.end(), before);
@@ -93,7 +92,7 @@ std::vector<BondTotals> cohesive_totals(const Particles &p, const Bonds &b, Inst
   });
 }
 
-// One block of particles, with memory of this thread for its rows.
+// One block of particles; its rows are in memory of this thread.
 kernels::BlockColumns block_of(Particles &p, Bonds &b, std::size_t block) {
   PairBlocks &blocks = b.blocks;
   kernels::BlockColumns c{};
@@ -140,7 +139,7 @@ ExactSum work_of_dashpots(const std::vector<kernels::BlockFindings> &found, doub
   return work;
 }
 
-// W, what the dashpot of a row does at the present velocities by its last force.
+// W, power of the last dashpot force of a row at the present velocities.
 double dashpot_power(const Particles &p, const Bonds &b, int row) {
   const int i = b.first[row], j = b.second[row];
   Vector3 v = p.velocity[j] - p.velocity[i];
@@ -166,7 +165,7 @@ ExactSum compute_bond_forces(Particles &p, Bonds &b, InstructionSet set, const V
         found[block] = compute_block(p, b, kernels, columns, gravity, block);
       },
       beside);
-  // Rare: the ratios themselves decide.
+  // Rarely reached: the strength ratios decide.
   std::vector<double> tension, shear;
   for (std::size_t block = 0; block < found.size(); ++block) {
     if (!found[block].reached) continue;

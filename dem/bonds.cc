@@ -40,7 +40,7 @@ double power_taken(const BrokenBond &b, const Particles &p) {
 std::vector<IndexPair> pairs_in_range(const Vector3 *position, const double *radius, std::size_t n,
                                       const BondLayout &layout) {
   const double largest = n > 0 ? *std::max_element(radius, radius + n) : 0;
-  // A hair wider than the reach, so that the test below alone decides.
+  // Slightly wider than the reach, so that only the test below decides.
   const double margin = layout.reach(largest, largest) * (1 + 1e-9) + 1e-9 * largest;
   std::vector<IndexPair> pairs = near_pairs(position, radius, n, margin);
   const auto out_of_range = [&](const IndexPair &p) {
@@ -52,7 +52,7 @@ std::vector<IndexPair> pairs_in_range(const Vector3 *position, const double *rad
   return pairs;
 }
 
-// Of what a bond remembers, by the names that laws give it.
+// Allowed values of a history variable, by its name in the laws.
 Allowed allowed_memory(const std::string &column) {
   const std::string damage = "damage";
   if (column.size() >= damage.size() &&
@@ -177,7 +177,7 @@ std::size_t Bonds::bytes() const {
   return size() * table.bytes_per_row() + records.size() * records.bytes_per_row() + blocks.bytes();
 }
 
-// Without broken rows: when they are dropped is no part of the state.
+// Without broken rows: the time when they are dropped is not part of the state.
 void Bonds::describe(Archive &archive) {
   archive.version(1);
   if (archive.writes() && broken_rows > 0) compact();
@@ -187,8 +187,8 @@ void Bonds::describe(Archive &archive) {
   if (archive.reads()) count_and_cut();
 }
 
-// Throws StateError where rows and records do not go together: pairs ascend, blocks of rows do, a row is that
-// of its record, and a bond has a row as long as it holds.
+// Throws StateError if rows and records are not consistent: pairs must ascend, blocks of rows too, a row must
+// match its record, and each bond that is not broken must have a row.
 void Bonds::require_whole(const StateSource &from, const std::string &at) const {
   const std::string rows = at + "rows/", of_records = at + "records/";
   const std::vector<int> i = rows_of<int>(from, rows + "first"), j = rows_of<int>(from, rows + "second"),
@@ -219,7 +219,7 @@ void Bonds::require_whole(const StateSource &from, const std::string &at) const 
   }
 }
 
-// f(law, what a row remembers), of laws that do.
+// f(law, history of the row), for laws with history.
 template <class F>
 auto Bonds::with_memory(std::size_t k, const F &f) const {
   return of_remembering(law, [&](const auto &one) {
@@ -227,7 +227,6 @@ auto Bonds::with_memory(std::size_t k, const F &f) const {
   });
 }
 
-// What is derived from the rows.
 void Bonds::count_and_cut() {
   count_rows();
   cut_blocks();
@@ -256,9 +255,9 @@ void Bonds::count_last(Failed &failed, std::size_t begin, std::size_t end) const
     ++failed.last;
 }
 
-// Each decides by its own rows alone: neither threads, ranks nor a stop change when.
+// Each block decides by its own rows only: threads, ranks and restarts do not change the time of reordering.
 void Bonds::order_failed() {
-  constexpr int enough = 8; // a SIMD vector's worth
+  constexpr int enough = 8; // lanes of the widest SIMD vector
   for (std::size_t b = 0; b < failed_.size(); ++b) {
     if (failed_[b].all - failed_[b].last < enough) continue;
     failed_[b].last = failed_[b].all;

@@ -1,4 +1,4 @@
-// The bonds of a specimen as columns, and the record of every bond that ever was.
+// The bonds of a specimen as columns, and one record for every initial bond.
 #pragma once
 
 #include <vector>
@@ -26,7 +26,7 @@ struct Gap {
   double length(double smaller_radius) const { return relative ? value * smaller_radius : value; } // m
 };
 
-// How bonds are laid between the spheres of a packing.
+// How bonds are created between the spheres of a packing.
 struct BondLayout {
   double modulus = std::numeric_limits<double>::quiet_NaN(); // G_b, Pa
   double radius_multiplier = 1;                              // lambda
@@ -35,7 +35,7 @@ struct BondLayout {
   Gap gap;                                                  // largest distance of the surfaces of a pair
   bool by_range = false; // instead of the gap: | |d|/(R_i + R_j) - 1 | <= interaction_range
   double interaction_range = 0.1;
-  // Of the bond's area, beside lambda's square. 0: 40 P / N_c of the specimen, by Model (Onate et al. 2015).
+  // Factor on the bond area besides lambda^2. 0: Model sets 40 P / N_c of the specimen (Onate et al. 2015).
   double area_factor = 1;
 
   static constexpr const char *name = "BondLayout";
@@ -46,8 +46,8 @@ struct BondLayout {
   double normal_stiffness(double ri, double rj) const { return modulus / (ri + rj); } // k_n, Pa/m (T-24)
   // k_n A of a pair, whether it is bonded or not; N/m.
   double axial_stiffness(double ri, double rj) const;
-  double reach(double ri, double rj) const;           // largest gap that is bonded, m
-  double largest_overlap(double ri, double rj) const; // that is bonded, m
+  double reach(double ri, double rj) const;           // largest gap of a bonded pair, m
+  double largest_overlap(double ri, double rj) const; // of a bonded pair, m
 };
 
 template <class Visitor, class Self>
@@ -72,9 +72,9 @@ void BondLayout::describe(Visitor &&v, Self &p) {
     "Alpha, on the area of the bond; 0: 40 times porosity over mean number of bonds of a sphere.");
 }
 
-// 40 P / N_c with the porosity P of the specimen (a share) and the mean number N_c of pairs in range that a
-// sphere has: 1 at 25 % and 10 (Onate et al. 2015, eq. 22). Throws BadParameter where there is no pair or no
-// porosity.
+// 40 P / N_c with the porosity P of the specimen (a fraction) and the mean number N_c of pairs in range per
+// sphere: 1 for P = 25 % and N_c = 10 (Onate et al. 2015, eq. 22). Throws BadParameter if there is no pair or
+// no porosity.
 double packing_factor(const Specimen &specimen, const BondLayout &layout);
 
 enum class BondState : int { intact = 0, damaged = 1, broken_in_tension = 2, broken_in_shear = 3 };
@@ -87,8 +87,7 @@ struct BrokenBond;
 struct BondTotals;
 
 struct Bonds {
-  // Rows that are computed: all intact bonds, and those broken since the last compaction (their stiffness is
-  // 0).
+  // Computed rows: all intact bonds, and bonds broken since the last compaction (with stiffness 0).
   Table table;
   Column<int> &first = table.add<int>("first", "1");   // particle row i
   Column<int> &second = table.add<int>("second", "1"); // particle row j > i
@@ -98,68 +97,66 @@ struct Bonds {
   Column<double> &lever = table.add<double>("lever", "1", between(0, 1));
   Column<double> &normal_stiffness = table.add<double>("normal_stiffness", "Pa/m", at_least(0));
   Column<double> &bond_radius = table.add<double>("bond_radius", "m", above(0));
-  // Only where bonds differ in strength: factor of both strengths.
+  // Only if bonds differ in strength: factor on both strengths.
   Column<double> *strength_factor = nullptr; // 1
-  // Only with dashpots: their coefficients (0 once broken) along the bond and in bending, times the ratios in
-  // shear and torsion; and what they exerted on the first particle in the last step.
+  // Only with dashpots: coefficients along the bond and in bending (0 once broken), times the ratios for
+  // shear and torsion; force and moment on the first particle in the last step.
   Column<double> *dashpot = nullptr;         // N s/m
   Column<double> *dashpot_bending = nullptr; // N m s; only with rotation
   double dashpot_shear_ratio = 0, dashpot_twist_ratio = 0;
   Column<Vector3> *dashpot_force = nullptr;  // N
   Column<Vector3> *dashpot_moment = nullptr; // N m; only with rotation
 
-  // One row per initial bond, in the order of creation: what output and measures read.
+  // One row per initial bond, in the order of creation. Output and measures read these rows.
   Table records;
   Column<int> &record_first = records.add<int>("first", "1");
   Column<int> &record_second = records.add<int>("second", "1");
   Column<int> &state = records.add<int>("state", "1", between(0, 3));            // BondState
   Column<double> &break_time = records.add<double>("break_time", "s", or_nan()); // NaN while intact
 
-  // Only where bonds remember: the members of the law's State, in its order. Rows then stay when they have
-  // failed.
+  // Only for laws with history: the members of the law's State, in its order. Failed rows then stay.
   std::vector<Column<double> *> memory_scalars;
   std::vector<Column<Vector3> *> memory_vectors;
   std::size_t failed_rows = 0;
 
-  PairBlocks blocks; // of the rows of `table`, ends times kernels::row_stride
+  PairBlocks blocks; // of the rows of `table`; ends times kernels::row_stride
   BondLaw law;
   std::size_t broken_rows = 0; // rows of `table` with zero stiffness
 
   // Bonds all pairs within the layout's reach; pairs are sorted by (first, second). Throws
-  // std::invalid_argument where spheres share a centre, or where the law needs spheres that turn and these do
-  // not.
+  // std::invalid_argument if spheres share a centre, or if the law needs rotation and there is none.
   Bonds(const Particles &particles, const BondLayout &layout, const BondParameters &parameters);
 
-  // Dashpots of the fraction alpha of critical in every bond: F = 2 alpha sqrt(K m*) v beside each spring of
-  // stiffness K, with the reduced mass m*, or inertia for moments. Bonds must be intact.
+  // Adds dashpots of the fraction alpha of critical to every bond: F = 2 alpha sqrt(K m*) v in parallel with
+  // each spring of stiffness K, with the reduced mass m* (inertia for moments). Bonds must be intact.
   void add_dashpots(const Particles &particles, double alpha);
-  // Strength factors of 1, to be changed.
+  // Adds the column of strength factors, all 1, if there is none.
   void add_strength_factor();
   std::size_t size() const { return table.size(); }
   std::size_t initial_count() const { return records.size(); }
-  // Drops broken rows and cuts the blocks anew. Forces on particles do not change by a bit, nor does any sum.
+  // Drops broken rows and rebuilds the blocks. Forces and sums stay the same to the last bit.
   void compact();
-  // Of laws that keep failed rows last: puts them behind the whole ones in every block where enough of them
-  // stand among these. Sums of a block are then added in another order.
+  // For laws that keep failed rows last: moves failed rows behind the intact ones in every block where enough
+  // of them stand between intact rows. This changes the order of the sums of a block.
   void order_failed();
-  // Keeps the rows of the blocks of particles that are marked, and drops the others; the records stay.
+  // Keeps the rows of the marked blocks of particles and drops the others; records stay.
   void keep_blocks(const std::vector<char> &marked);
-  // After rows were put into `table` from elsewhere: counts the broken ones; and cuts the blocks.
+  // After rows were put into `table`: counts the broken rows; count_and_cut() also rebuilds the blocks.
   void count_rows();
   void count_and_cut();
   void describe(Archive &archive);
-  // Takes the stiffness from these rows, marks their records and tells what they held.
+  // Sets the stiffness of these rows to 0, marks their records and returns the state of the bonds.
   std::vector<BrokenBond> break_rows(const std::vector<BondBreak> &breaks, const Particles &particles,
                                      double time);
-  // Of bonds that remember: marks these rows, which have failed, and tells what damage took from them. What
-  // they dissipate from now on is friction.
+  // For laws with history: marks these failed rows and returns the energy dissipated by damage. What they
+  // dissipate from now on is friction.
   std::vector<BrokenBond> fail_rows(const std::vector<BondBreak> &breaks, const Particles &particles,
                                     double time);
-  bool has_failed(std::size_t row) const; // broken, or of those that remember
+  bool has_failed(std::size_t row) const; // broken; with history: damage is 1
   BondResponse<double> response(std::size_t row, const Particles &particles) const;
-  double damage(std::size_t row) const;          // 0 ... 1; of laws without history 0
-  bool failed_in_tension(std::size_t row) const; // of bonds that remember
-  // What a row remembers; State is that of its law.
+  double damage(std::size_t row) const;          // 0 ... 1; 0 for laws without history
+  bool failed_in_tension(std::size_t row) const; // for laws with history
+  // History variables of a row; State is that of its law.
   template <class State>
   State memory(std::size_t row) const;
   template <class State>
@@ -172,19 +169,19 @@ struct Bonds {
 private:
   BondGeometry<double> geometry(std::size_t row) const;
   CohesiveGeometry<double> cohesive_geometry(std::size_t row) const;
-  // Marks the record of a row that breaks, and tells what the row holds.
+  // Marks the record of a row that breaks, and returns the state of the bond.
   BrokenBond marked(const BondBreak &, const Particles &particles, double time);
   template <class F>
   auto with_memory(std::size_t row, const F &f) const;
   void add_history();
   struct Failed { // rows of a block
     int all = 0;
-    int last = 0; // of them, behind the last whole one
+    int last = 0; // number of them behind the last intact row
   };
   void count_last(Failed &failed, std::size_t begin, std::size_t end) const;
   std::size_t particles_ = 0;
   bool rotation_ = false;
-  std::vector<Failed> failed_; // of each block of particles; of laws that keep failed rows last
+  std::vector<Failed> failed_; // per block of particles; only for laws that keep failed rows last
   void cut_blocks();
   void require_whole(const StateSource &from, const std::string &at) const;
 };
@@ -221,45 +218,43 @@ void Bonds::set_memory(std::size_t row, const State &remembered) {
       remembered);
 }
 
-// A bond that has just broken: what the contact takes over, and what the crack log needs.
+// A bond that has just broken: data for its contact and for the crack log.
 struct BrokenBond {
   int first = 0, second = 0, record = 0;
   BondState mode = BondState::broken_in_tension;
   double rest_length = 0, area = 0; // m, m^2
   BondResponse<double> last;        // at the break
-  double power = 0;                 // W, rate at which the bond was taking up energy
+  double power = 0;                 // W, rate at which the bond stored energy
   double released = 0;              // J
 };
 
-// Sets force and torque of every particle to its weight and the bonds of its own block; what bonds bring from
-// other blocks waits in the ghosts, for return_ghosts. On any number of threads. Rows at or above their
-// strength are appended to `breaks`, in row order; nothing is broken here. `beside` is done at the same time.
-// Dashpots act too, where there are any, at the velocities of the last drift, which took dt. Returns the
-// energy that they took in it, J: by the mean of their forces at its two ends, as the leapfrog sees it. This
-// and what follows go through the blocks that are listed, where a list is given, and through all else.
+// Sets force and torque of every particle to its weight plus the forces of bonds of its own block; forces of
+// bonds of other blocks stay in the ghosts until return_ghosts. On any number of threads. Rows at or above
+// their strength are appended to `breaks`, in row order; nothing is broken here. `beside` runs at the same
+// time. Dashpots act at the velocities of the last drift, which took dt. Returns the energy that they
+// dissipated in it, J, from the mean of their forces at its two ends (leapfrog). This and the following
+// functions process the listed blocks if a list is given, otherwise all blocks.
 ExactSum compute_bond_forces(Particles &particles, Bonds &bonds, InstructionSet set, const Vector3 &gravity,
                              double dt, std::vector<BondBreak> &breaks, const Loop &beside = {},
                              const BlockList *listed = nullptr);
-// The same again for one block, whose rows have just been broken.
+// The same for one block, whose rows have just been broken.
 void compute_bond_forces_again(Particles &particles, Bonds &bonds, InstructionSet set, const Vector3 &gravity,
                                std::size_t block);
-// What is to be added to the energy, J: at the end of the drift the dashpots of rows that have just been
-// broken act no more. To be asked before their blocks are computed again, which overwrites their last forces.
+// Correction of the dissipated energy, J: dashpots of rows that have just been broken no longer act at the
+// end of the drift. To call before their blocks are computed again, which overwrites their last forces.
 ExactSum undone_work_of_dashpots(const Particles &particles, const Bonds &bonds, double dt,
                                  const std::vector<BondBreak> &breaks);
 
-// The same for bonds that remember, which it brings `dt` further, at the velocities of the drift. Rows that
-// have failed in this step are appended to `breaks`, in row order; they are not marked here, and their
-// dashpots act no more.
+// The same for bonds with history, which it advances by `dt` at the velocities of the drift. Rows that fail
+// in this step are appended to `breaks`, in row order; they are not marked here, and their dashpots stop.
 ExactSum compute_cohesive_forces(Particles &particles, Bonds &bonds, InstructionSet set,
                                  const Vector3 &gravity, double dt, std::vector<BondBreak> &breaks,
                                  const Loop &beside = {}, const BlockList *listed = nullptr);
 
 struct BondTotals {
   double energy = 0; // J
-  double force = 0;  // N, sum of the sizes of all bonds' forces
-  // J, of bonds that remember: taken by damage of those that hold, by friction of those that failed, by
-  // yield.
+  double force = 0;  // N, sum of the magnitudes of all bond forces
+  // J, with history: dissipated by damage of intact bonds, by friction of failed bonds, by yield.
   double damage = 0, friction = 0, plastic = 0;
   BondTotals &operator+=(const BondTotals &b) {
     energy += b.energy, force += b.force;
@@ -267,10 +262,10 @@ struct BondTotals {
     return *this;
   }
 };
-// Of each block of particles, or of those that are listed.
+// Totals of each block of particles, or of the listed ones.
 std::vector<BondTotals> bond_totals_of_blocks(const Particles &particles, const Bonds &bonds,
                                               InstructionSet set, const BlockList *listed = nullptr);
-// Added up block by block, so that rows that are broken do not show in the last bit.
+// Summed block by block, so that broken rows do not change the last bit.
 BondTotals bond_totals(const Particles &particles, const Bonds &bonds,
                        InstructionSet set = best_instruction_set());
 

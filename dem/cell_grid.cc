@@ -13,18 +13,18 @@
 namespace platen::dem {
 namespace {
 
-// Spheres whose reach (radius and half the margin) is within a factor of two of each other share a grid:
-// every larger one searches the grids of smaller ones, never the other way round. Reaches below the
-// smallest class are in it too.
+// Spheres whose reach (radius and half the margin) agrees within a factor of two are in one grid: every
+// larger sphere searches the grids of smaller ones, never the reverse. The smallest class also contains all
+// smaller reaches.
 constexpr int most_classes = 24;
-constexpr double cell_slack = 1e-6; // cells; far above the round-off of a place near the origin
+constexpr double cell_slack = 1e-6; // cells; far above the round-off of a position near the origin
 
-// Cubic cells of one edge length, found by a hash of their place. Memory and cost depend on how many spheres
-// there are, not on the space that they span: one that flies away costs nothing.
+// Cubic cells of one edge length, found by a hash of their position. Memory and cost depend on the number of
+// spheres, not on the space that they span: a sphere that flies away costs nothing.
 class HashedCells {
 public:
-  // `by_larger`: larger spheres will search too, which reach many cells at once. Where few spheres share a
-  // cell these are made longer.
+  // `by_larger`: larger spheres, which reach many cells at once, will also search. If cells contain few
+  // spheres, the cells are made larger.
   HashedCells(const Vector3 *centres, const double *radii, const std::vector<int> &spheres, double margin,
               bool by_larger) {
     Vector3 zero;
@@ -35,7 +35,7 @@ public:
     }
     if (!(norm_squared(zero) == 0)) throw NotFinite("the place of a sphere is not finite");
     const double edge = 2 * largest_ + std::max(margin, 0.0);
-    if (edge > smallest_edge) inverse_edge_ = 1.0 / edge; // points: any cells will do
+    if (edge > smallest_edge) inverse_edge_ = 1.0 / edge; // points: any edge is correct
     std::vector<Cell> cell = cells_of(centres, spheres);
     while (by_larger && keys_in(cell) > 8 + most_keys_a_sphere * static_cast<double>(spheres.size())) {
       inverse_edge_ *= 0.5;
@@ -57,8 +57,8 @@ public:
 
   double largest() const { return largest_; } // m, radius
 
-  // visit(sphere) for every one whose centre may lie within `reach` (m) of a place along each axis. Looks at
-  // the cells there, or at all spheres where these are fewer.
+  // Calls visit(sphere) for every sphere whose centre may lie within `reach` (m) of x along each axis. Checks
+  // the cells there, or all spheres if these are fewer.
   template <class Visit>
   void near(const Vector3 &x, double reach, const Visit &visit) const {
     Cell from, to;
@@ -78,7 +78,7 @@ public:
     for (std::int64_t z = from[2]; z <= to[2]; ++z)
       for (std::int64_t y = from[1]; y <= to[1]; ++y) {
         const std::uint64_t row_key = key({0, y, z}), row_bucket = bucket_of_row(row_key);
-        // In runs of cells whose keys and buckets follow one another: one, but where either begins anew.
+        // Runs of cells with consecutive keys and buckets: one run, unless keys or buckets start again.
         for (std::int64_t x0 = from[0]; x0 <= to[0];) {
           const std::uint64_t cut = static_cast<std::uint64_t>(x0) & key_mask, wanted = row_key | cut;
           const std::size_t b = (row_bucket + static_cast<std::uint64_t>(x0)) & last_bucket_;
@@ -98,8 +98,8 @@ private:
     int sphere;
   };
   static constexpr double smallest_edge = 1e-300, most_slots = 1e15, round_off = 1e-15;
-  static constexpr double most_cells = 1e6; // fewer than keys along an axis, so that none comes twice
-  static constexpr int key_bits = 21;       // of each axis: cells of one key are two million edges apart
+  static constexpr double most_cells = 1e6; // fewer than keys along an axis, so that no key occurs twice
+  static constexpr int key_bits = 21;       // of each axis: cells of one key are two million edges distant
   static constexpr std::uint64_t key_mask = (std::uint64_t{1} << key_bits) - 1;
 
   static constexpr double most_keys_a_sphere = 0.8;
@@ -164,7 +164,7 @@ std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, s
   std::vector<std::vector<int>> spheres(most_classes);
   for (std::size_t i = 0; i < count; ++i)
     spheres[class_of[i]].push_back(static_cast<int>(i));
-  std::vector<HashedCells> grids; // of the classes that there are
+  std::vector<HashedCells> grids; // of the classes that have spheres
   std::vector<std::size_t> grid_of(most_classes, 0);
   for (std::size_t c = 0; c < spheres.size(); ++c) {
     grid_of[c] = grids.size();

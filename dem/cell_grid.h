@@ -18,10 +18,10 @@ inline bool operator==(const IndexPair &a, const IndexPair &b) {
   return a.first == b.first && a.second == b.second;
 }
 
-// All pairs with |x_j - x_i| < R_i + R_j + margin, sorted by (first, second). Cost grows with n + pairs,
-// whatever the radii and however far spheres lie from each other. Throws NotFinite where a centre is not
-// finite. `measured`, where given, is told of how many pairs the distance was checked. With a list of blocks:
-// the pairs whose first sphere lies in them.
+// All pairs with |x_j - x_i| < R_i + R_j + margin, sorted by (first, second). Cost grows with n + pairs, for
+// any radii and any distances between spheres. Throws NotFinite if a centre is not finite. `measured`, if
+// given, receives the number of pairs whose distance was checked. With a list of blocks: only pairs whose
+// first sphere lies in them.
 std::vector<IndexPair> near_pairs(const Vector3 *centres, const double *radii, std::size_t count,
                                   double margin, std::size_t *measured = nullptr,
                                   const BlockList *listed = nullptr);

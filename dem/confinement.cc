@@ -11,7 +11,7 @@
 namespace platen::dem {
 namespace {
 
-constexpr double share_of_body = 0.05;   // of the spheres: smaller pieces are left alone
+constexpr double share_of_body = 0.05;   // fraction of the spheres; smaller pieces are not loaded
 constexpr double move_of_areas = 0.05;   // mean radii
 constexpr double depth_of_spheres = 1.0; // mean radii, between a lateral sphere's surface and the wall
 
@@ -30,7 +30,7 @@ double broken_bonds(const Bonds *bonds) {
   return static_cast<double>(std::count_if(bonds->state.begin(), bonds->state.end(), is_broken));
 }
 
-// From the lateral surface inwards, m.
+// Distance from the lateral surface inwards, m.
 double lateral_clearance(const Shape &s, const Vector3 &x) {
   if (s.kind == ShapeKind::cylinder) return s.radius - std::hypot(x.x, x.y);
   return std::min(0.5 * s.width_x - std::abs(x.x), 0.5 * s.width_y - std::abs(x.y));
@@ -57,8 +57,8 @@ Confinement::Confinement(const Particles &p, const Bonds *bonds, const Shape &sh
   whole_coverage_ = coverage(p, planes);
 }
 
-// The part of an area vector that faces outwards as the shape's lateral surface does there. At the edge of a
-// box both faces have a part.
+// The part of an area vector along the outward normal of the shape's lateral surface there. At the edge of a
+// box both faces contribute.
 Vector3 Confinement::outward(const Vector3 &area, const Vector3 &x) const {
   if (shape_.kind == ShapeKind::cylinder) {
     const double r = std::hypot(x.x, x.y);
@@ -66,7 +66,7 @@ Vector3 Confinement::outward(const Vector3 &area, const Vector3 &x) const {
     const Vector3 n{x.x / r, x.y / r, 0};
     return dot(area, n) * n;
   }
-  const double depth = 4 * mean_radius_; // where a face's skin ends
+  const double depth = 4 * mean_radius_; // of a face's skin
   Vector3 out;
   if (0.5 * shape_.width_x - std::abs(x.x) < depth) out.x = area.x;
   if (0.5 * shape_.width_y - std::abs(x.y) < depth) out.y = area.y;
@@ -117,13 +117,13 @@ void Confinement::find(const Particles &p, const Bonds *bonds, const EndPlanes &
   moved_ = 0;
   ++lists_made_;
   broken_ = broken_bonds(bonds);
-  // A specimen only loses spheres: as many as at the start are the same ones.
+  // A specimen only loses spheres: an equal number means the same spheres.
   const double now = coverage(p, planes);
   if (static_cast<std::size_t>(std::count(body.begin(), body.end(), 1)) == whole_) whole_coverage_ = now;
   loaded_share_ = std::min(1.0, now / whole_coverage_);
 }
 
-// Sum of a.v, m^3/s: by it the specimen swells.
+// Sum of a.v, m^3/s: rate of the volume increase of the specimen.
 double Confinement::power(const Particles &p) const {
   double sum = 0;
   for (std::size_t k = 0; k < particle_.size(); ++k)
@@ -131,8 +131,7 @@ double Confinement::power(const Particles &p) const {
   return sum;
 }
 
-// The work goes by the trapezoid over the drift: the old areas and pressure at its beginning, the new ones at
-// its end.
+// Work by the trapezoidal rule over the drift: old areas and pressure at its beginning, new ones at its end.
 void Confinement::update(const Particles &p, const Bonds *bonds, const EndPlanes &planes, double dt,
                          double distance, bool due) {
   moved_ += distance;

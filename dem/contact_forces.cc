@@ -1,4 +1,4 @@
-// The loop over contacts: blocks of particles, each by the kernel of the effects chosen.
+// The loop over contacts, block by block of particles, with the kernel of the chosen effects.
 #include <algorithm>
 
 #include "base/parallel.h"

@@ -8,8 +8,8 @@
 namespace platen::dem {
 namespace {
 
-// Drops the pairs that an intact bond holds together, or that one that remembers is the contact of: those
-// stay as long as there are records. Both are sorted by (first, second).
+// Drops pairs with an intact bond, and all pairs that ever had a bond with history, which after failure is
+// also their contact. Both are sorted by (first, second).
 void drop_bonded(std::vector<IndexPair> &pairs, const Bonds &bonds) {
   const bool of_records = has_history(bonds.law);
   const Column<int> &first = of_records ? bonds.record_first : bonds.first,

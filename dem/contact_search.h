@@ -1,5 +1,5 @@
-// Which unbonded pairs may touch. Two lists: all near pairs, rebuilt rarely through a grid; and the few of
-// them that can touch soon, rebuilt from the first. In an intact specimen the second is almost empty.
+// Search for unbonded pairs that may touch. Two lists: all near pairs, rebuilt rarely with a grid; and the
+// few of them that can touch soon, rebuilt from the first. In an intact specimen the second is almost empty.
 #pragma once
 
 #include <vector>
@@ -19,19 +19,19 @@ public:
 
   // No particle has moved by more than `distance` (m) since the last call.
   void moved(double distance);
-  // Whether update() will go through all particles.
+  // Whether update() will search all particles.
   bool wide_due() const;
-  // Brings the lists up to date; true where close_pairs() changed. `bonds` may be null. With a list of
-  // blocks: of pairs whose first particle lies in them.
+  // Updates the lists; returns true if close_pairs() was rebuilt. `bonds` may be null. With a list of blocks:
+  // only pairs whose first particle lies in them.
   bool update(const Particles &particles, const Bonds *bonds, const BlockList *listed = nullptr);
-  // The second list from the first by the places as they are now; nothing before the first update().
+  // Rebuilds the second list from the first at the present positions; does nothing before the first update().
   void renew_close(const Particles &particles) {
     if (made()) rebuild_close(particles);
   }
-  // A pair that was bonded and is no longer: it is in both lists from now on. Nothing before the first
-  // update(), which finds it. Whether the list of close pairs has gained it.
+  // Adds a pair that is no longer bonded to both lists. Does nothing before the first update(), which finds
+  // the pair. Returns whether the pair is new in the list of close pairs.
   bool add_pair(IndexPair pair);
-  // Distance at which a pair starts to touch, where it is less than R_i + R_j (m).
+  // Distance (m) at which a pair starts to touch, if it is less than R_i + R_j.
   void set_rest_distance(IndexPair pair, double distance);
   double rest_distance(IndexPair pair, const Particles &particles) const;
 
@@ -40,11 +40,11 @@ public:
   bool made() const { return wide_valid_ && close_valid_; }          // by an update()
   std::vector<IndexPair> wide_pairs() const { return wide_.rows(); } // sorted
   std::size_t bytes() const { return wide_.bytes() + close_.bytes() + rest_.bytes(); }
-  // By pairs that were added one at a time.
+  // Bytes moved to insert pairs one at a time.
   std::size_t bytes_moved() const { return wide_.bytes_moved() + close_.bytes_moved() + rest_.bytes_moved(); }
-  // Drops what does not begin in the blocks that are marked.
+  // Drops pairs whose first particle is not in a marked block.
   void keep_blocks(const std::vector<char> &marked);
-  // visit(rows) for every list, which may change them. Rows are sorted by the pair that they convert to.
+  // Calls visit(rows) for every list; visit may change the rows. Rows are sorted by their pair.
   template <class Visit>
   void visit_lists(const Visit &visit) {
     const auto of = [&](auto &list) {
@@ -60,8 +60,8 @@ public:
     operator IndexPair() const { return pair; }
   };
 
-  // Everything that decides when lists are rebuilt and what they hold, so that sums over rows are grouped as
-  // they would have been without a stop.
+  // Includes all that decides when lists are rebuilt and what they contain, so that sums over rows are
+  // grouped after a restart as without it.
   void describe(Archive &archive);
 
 private:

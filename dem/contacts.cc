@@ -13,10 +13,10 @@
 namespace platen::dem {
 namespace {
 
-// Margins of the two pair lists in mean radii: the wide list lasts some hundred steps of a fast fragment, the
-// close one keeps pairs that are merely near out of the contact loop.
+// Margins of the two pair lists in mean radii: the wide list is valid for some hundred steps of a fast
+// fragment; the close one excludes pairs that are merely near from the contact loop.
 constexpr double wide_skin = 0.5, close_skin = 0.06;
-// Overlap in smaller radii at which a Hertz contact that is about to form is counted in the time step.
+// Overlap in smaller radii at which the time step counts a Hertz contact that is about to form.
 constexpr double early_overlap = 2e-3;
 
 double elastic_energy(NormalContact law, double coefficient, double overlap) {
@@ -98,8 +98,7 @@ void Contacts::carry_rows(const Particles &particles) {
   const std::vector<IndexPair> pairs = search_.close_pairs();
   std::vector<int> order(pairs.size(), 0);
   std::vector<unsigned char> fresh(pairs.size(), 0);
-  // Old rows and pairs are both in order; a pair without an old row starts from a blank one appended at the
-  // end.
+  // Old rows and pairs are both sorted; a pair without an old row starts from a blank row at the end.
   std::size_t k = 0;
   for (std::size_t n = 0; n < pairs.size(); ++n) {
     while (k < before.size() && comes_before(before[k], pairs[n]))
@@ -114,7 +113,7 @@ void Contacts::carry_rows(const Particles &particles) {
   }
 }
 
-// table.size() where the pair has no row.
+// Returns table.size() if the pair has no row.
 std::size_t Contacts::place_of(const IndexPair &pair) const {
   const auto is_it = [&](std::size_t row) { return first[row] == pair.first && second[row] == pair.second; };
   const auto end = first.begin() + static_cast<std::ptrdiff_t>(sorted_rows());
@@ -137,7 +136,7 @@ void Contacts::begin_row(const Particles &particles, std::size_t k, const IndexP
     (*tangential_stiffness)[k] = settings_.tangential_ratio * coefficient[k];
 }
 
-// A pair that the list of close ones has gained, behind all rows.
+// Adds a row, behind all others, for a new pair of the close list.
 void Contacts::add_row(const Particles &particles, const IndexPair &pair) {
   const std::size_t row = table.size();
   table.resize(row + 1);
@@ -185,7 +184,7 @@ void Contacts::take_over(const Particles &p, const Bonds &bonds, std::vector<Bro
     const double ri = p.radius[b.first], rj = p.radius[b.second], c = coefficient_of(p, b.first, b.second);
     const double length = norm(p.position[b.second] - p.position[b.first]);
     double rest = std::min(ri + rj, b.rest_length);
-    // The contact must not hold more than the bond did.
+    // The contact must not store more energy than the bond did.
     if (rest > length && elastic_energy(settings_.normal, c, rest - length) > b.last.energy)
       rest = length + overlap_of_energy(settings_.normal, c, b.last.energy);
     search_.set_rest_distance({b.first, b.second}, rest);
@@ -205,7 +204,7 @@ void Contacts::take_over(const Particles &p, const Bonds &bonds, std::vector<Bro
   }
 }
 
-// Puts a broken bond's energy into its contact; returns the power that the contact takes up, W.
+// Transfers a broken bond's energy to its contact; returns the power that the contact stores, W.
 double Contacts::start_contact(const Particles &p, std::size_t k, double dt, BrokenBond &b) {
   rest_distance[k] = search_.rest_distance({b.first, b.second}, p);
   const Vector3 d = p.position[b.second] - p.position[b.first];
@@ -223,7 +222,7 @@ double Contacts::start_contact(const Particles &p, std::size_t k, double dt, Bro
   double power = -pressing * dot(v, n);
   if (spring != nullptr && b.mode == BondState::broken_in_shear) {
     const Vector3 slip_velocity = v - dot(v, n) * n, kept = keep_shear(k, pressing, b);
-    // The row's next evaluation adds this drift's slip, which the bond's shear force holds already.
+    // The row's next evaluation adds this drift's slip, which the bond's shear force already contains.
     (*spring)[k] = kept - (*tangential_stiffness)[k] * dt * slip_velocity;
     (*normal)[k] = n;
     power += dot(kept, slip_velocity);
@@ -231,7 +230,7 @@ double Contacts::start_contact(const Particles &p, std::size_t k, double dt, Bro
   return power;
 }
 
-// A bond that breaks in shear hands its shear force (N) to the contact, as much as friction and the energy
+// Transfers the shear force (N) of a bond broken in shear to the contact, as far as friction and energy
 // allow.
 Vector3 Contacts::keep_shear(std::size_t k, double pressing, BrokenBond &b) {
   double &kt = (*tangential_stiffness)[k];
@@ -309,8 +308,8 @@ void Contacts::describe(Archive &archive) {
   if (archive.reads()) rows_changed();
 }
 
-// Throws StateError where the lists of pairs do not ascend, name particles that are not there, or the close
-// ones are not the pairs of the rows.
+// Throws StateError if the lists of pairs do not ascend or contain particles that do not exist, or if the
+// close pairs are not the pairs of the rows.
 void Contacts::require_whole(const StateSource &state, const std::string &at) const {
   const std::vector<int> of_first = rows_of<int>(state, at + "rows/first"),
                          of_second = rows_of<int>(state, at + "rows/second");

@@ -29,12 +29,12 @@ struct ContactStiffness {
 
 class Contacts {
 public:
-  // energy_ledger: sums of what friction and dashpots take. instruction_set: changes no bit.
+  // energy_ledger: sum the energy lost to friction and dashpots. instruction_set: does not change results.
   Contacts(const Particles &particles, const ContactSettings &settings, const BondLayout &layout,
            bool energy_ledger = true, InstructionSet instruction_set = best_instruction_set());
 
-  // One row per pair that may touch, sorted by (first, second) but for those that broken bonds have left
-  // since sort_rows().
+  // One row per pair that may touch, sorted by (first, second), except rows of bonds broken since
+  // sort_rows().
   Table table;
   Column<int> &first = table.add<int>("first", "1");
   Column<int> &second = table.add<int>("second", "1");
@@ -55,56 +55,55 @@ public:
 
   ExactSum friction_work, damping_work; // J, dissipated so far
 
-  // Brings the rows up to date after a motion of at most `distance` (m) per particle.
+  // Updates the rows after a motion of at most `distance` (m) per particle.
   void search(const Particles &particles, const Bonds *bonds, double distance) {
     moved(distance);
     update(particles, bonds);
   }
-  // The same in two pieces, with what lies between: whether all particles will be gone through. With a list
+  // The same in two parts; search_is_wide() returns whether update() will search all particles. With a list
   // of blocks, rows are those of pairs whose first particle lies in them.
   void moved(double distance) { search_.moved(distance); }
   bool search_is_wide() const { return search_.wide_due(); }
   void update(const Particles &particles, const Bonds *bonds, const BlockList *listed = nullptr);
-  // Rows of the pairs that are close now, so that their number does not depend on when the lists were made.
+  // Makes rows of the pairs that are close now: their number then does not depend on earlier searches.
   void renew_close(const Particles &particles);
-  // Forces of all rows from positions and half-step velocities, added to the particles; what leaves a block
-  // of particles waits in the ghosts of blocks(). History advances by dt. before(block), where given, is
-  // called before the contacts of each block are added.
+  // Adds the forces of all rows, from positions and half-step velocities, to the particles; forces on other
+  // blocks stay in the ghosts of blocks(). History advances by dt. before(block), if given, is called before
+  // the contacts of each block are added.
   void compute(Particles &particles, double dt, const BlockList *listed = nullptr, const Loop &before = {});
-  // visit(row) for the rows whose first particle lies in a block, in the order of their pairs.
+  // Calls visit(row) for the rows whose first particle lies in a block, in the order of their pairs.
   template <class Visit>
   void for_rows_of_block(std::size_t block, const Visit &visit) const;
   const PairBlocks &blocks() const { return blocks_; }
   PairBlocks &blocks() { return blocks_; }
-  // Of rows and search lists: drops what does not begin in the blocks of particles that are marked.
+  // Drops rows and search-list pairs whose first particle is not in a marked block.
   void keep_blocks(const std::vector<char> &marked);
   ContactSearch &search_state() { return search_; }
-  // After sorted rows were put into `table` from elsewhere.
+  // To call after sorted rows were put into `table` from elsewhere.
   void rows_changed() {
     stale_ = Stale::all;
     added_.clear();
     added_rows_ = 0;
   }
-  // Takes over the pairs of broken bonds (physics: overlap from min(R_i + R_j, initial distance), shear force
-  // kept up to the Coulomb limit) and sets what each released, J, >= 0: bond energy minus what its contact
-  // holds, less the work that the two differ by in the half step that leads to the break (the kick at its end
-  // is the contact's).
-  // `sorted`: their rows come to their places at once.
+  // Takes over the pairs of broken bonds (overlap from min(R_i + R_j, initial distance), shear force kept up
+  // to the Coulomb limit) and sets the energy that each bond released, J, >= 0: bond energy minus contact
+  // energy, minus the difference of their works in the half step before the break (the kick at its end uses
+  // the contact force). `sorted`: the new rows are sorted at once.
   void take_over(const Particles &particles, const Bonds &bonds, std::vector<BrokenBond> &broken, double dt,
                  bool sorted = false);
-  // J, stored in normal, tangential and rolling springs; added up block by block of particles, so that it
-  // does not depend on who has which rows.
+  // J, stored in normal, tangential and rolling springs; summed block by block of particles, so that it does
+  // not depend on which rank has which rows.
   double energy() const;
   std::vector<double> energy_of_blocks(const BlockList *listed = nullptr) const;
   std::size_t touching_count() const;
-  // Stiffness of a pair that overlaps by `approach` (m), or soon will: Hertz' law, which has none at
-  // touching, is taken at 0.2 % of the smaller radius at least.
+  // Stiffness of a pair that overlaps by `approach` (m) or soon will. The overlap is at least 0.2 % of the
+  // smaller radius, because Hertz' law has no stiffness at zero overlap.
   ContactStiffness stiffness_bound(const Particles &particles, int first, int second, double approach) const;
 
   const ContactSearch &search_state() const { return search_; }
   void describe(Archive &archive);
   const ContactSettings &settings() const { return settings_; }
-  // From the next step on; 1, not negative. Of contacts that were made with tangential springs.
+  // Friction coefficient from the next step on, >= 0. Only for contacts made with tangential springs.
   void set_friction(double friction);
 
 private:
@@ -135,10 +134,10 @@ private:
   std::size_t particles_ = 0;
   double dashpot_ = 0; // fraction of critical
   kernels::ContactLoop loop_ = nullptr;
-  PairBlocks blocks_; // of the rows, as far as current
+  PairBlocks blocks_; // of the rows, where not stale
   enum class Stale { none, some, all } stale_ = Stale::all;
-  std::vector<char> stale_blocks_;      // marked where some are
-  std::vector<std::vector<int>> added_; // rows of each block behind the sorted ones, in order; or empty
+  std::vector<char> stale_blocks_;      // marks of the stale blocks, for Stale::some
+  std::vector<std::vector<int>> added_; // per block: rows behind the sorted ones, in order; or empty
   std::size_t added_rows_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Vectors as Eigen has them, for matrices and what is solved with them.
+// Conversion of vectors to Eigen, for matrices and linear solves.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// The energy balance of a run: what is stored, what was lost, what came in. J throughout.
+// Energy balance of a run: stored, lost and supplied energy, all in J.
 #pragma once
 
 namespace platen::dem {
@@ -12,8 +12,8 @@ struct EnergyLedger {
   double friction = 0; // lost to sliding and rolling, grains and platens
   double fracture = 0; // lost when bonds break or lose strength
   double plastic = 0;  // lost when bonds yield
-  double boundary = 0; // done by platens, servo and weight
-  // Of what the residual has: what loads did on platens without inertia beyond what these store, of either
+  double boundary = 0; // work of platens, servo and weight
+  // Part of the residual: work of loads on platens without inertia beyond what the platens store, of either
   // sign.
   double unbalanced = 0;
 

@@ -32,16 +32,16 @@ void require_fitting(const Particles &p, const StaticCase &load) {
 
 namespace {
 
-// Pieces of the network that nothing prescribes or supports rest only under loads that balance; found out
-// here, because conjugate gradients would look for a balance until they are stopped.
+// Pieces of the network without prescribed motion or support rest only under loads that balance. Checked
+// here, because conjugate gradients would iterate until they are stopped.
 void refuse_unbalanced(const Particles &p, const Bonds &bonds, const StaticCase &load, double tolerance) {
   if (load.force.empty() && load.torque.empty()) return;
   const Fragments pieces = find_fragments(p, &bonds);
   struct Sum {
     bool fixed = false;
-    int particle = 0;               // row, one of the piece
+    int particle = 0;               // a row of the piece
     Vector3 force, torque;          // N, N m about that particle
-    double forces = 0, torques = 0; // sums of sizes
+    double forces = 0, torques = 0; // sums of magnitudes
   };
   std::vector<Sum> sums(pieces.particles.size());
   const auto piece = [&](int row) -> Sum & { return sums[pieces.of_particle[row]]; };
@@ -117,8 +117,8 @@ public:
   }
 
 private:
-  // What is prescribed, or supported by nothing, has no equation. Another set of them needs another
-  // multigrid.
+  // Particles that are prescribed, or have neither bonds nor support, have no equation. Another set of them
+  // needs another multigrid.
   void hold(const StaticCase &load) {
     std::vector<char> fixed(p_.size(), 0);
     for (const PrescribedMotion &l : load.prescribed)
@@ -189,7 +189,7 @@ private:
   const Particles &p_;
   const Bonds &network_;
   BlockMatrix<n, double> bonds_, matrix_; // without and with supports
-  std::vector<std::size_t> diagonal_;     // block of each row
+  std::vector<std::size_t> diagonal_;     // diagonal block of each row
   std::vector<std::size_t> supported_;    // rows
   std::vector<char> fixed_;
   std::optional<statics::Multigrid<n>> multigrid_;

@@ -13,7 +13,7 @@
 namespace platen::dem {
 namespace {
 
-// Keeps strengths apart from the packing, which draws from the same seed.
+// Makes strengths independent of the packing, which uses the same seed.
 constexpr std::uint64_t stream = 0x5ca77e7ed57e9675ULL;
 
 } // namespace
@@ -55,7 +55,7 @@ std::vector<double> weibull_factors(std::size_t count, const StrengthScatter &sc
   Random random(scatter.seed ^ stream);
   std::vector<double> factors(count);
   for (double &s : factors) {
-    const double survival = 1 - random.uniform(); // above 0, and 1 once in 2^53: no strength at all
+    const double survival = 1 - random.uniform(); // above 0; 1 once in 2^53, which gives no strength
     s = scale * portable::pow(-portable::log(survival), 1 / m);
     if (!(s > 0)) s = std::numeric_limits<double>::min();
   }

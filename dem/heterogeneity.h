@@ -1,5 +1,5 @@
-// Bonds of unlike strength: two phases of one specimen (aggregates in a matrix, with bonds of three kinds),
-// and a random factor for each bond, of Weibull's distribution.
+// Bonds of different strength: two phases of one specimen (aggregates in a matrix, with bonds of three
+// kinds), and a random factor for each bond from a Weibull distribution.
 #pragma once
 
 #include <array>
@@ -17,16 +17,16 @@ struct Particles;
 
 enum class Phase : int { matrix = 0, aggregate = 1 };
 
-// What a kind of bond has over those between two spheres of the matrix, > 0.
+// Factors of a kind of bond relative to bonds between two spheres of the matrix, > 0.
 struct PhaseFactors {
   double modulus = 1, strength = 1;
 };
 
 struct Phases {
-  // A sphere is of the aggregate where its radius is above this ...
-  double radius_above = std::numeric_limits<double>::quiet_NaN(); // m; NaN: none is by its radius
-  std::vector<int> aggregate_ids;                                 // ... or where its id is one of these
-  PhaseFactors aggregate, interface; // bonds between two spheres of the aggregate; of one and one
+  // A sphere is of the aggregate if its radius is above this ...
+  double radius_above = std::numeric_limits<double>::quiet_NaN(); // m; NaN: no sphere by its radius
+  std::vector<int> aggregate_ids;                                 // ... or if its id is one of these
+  PhaseFactors aggregate, interface; // bonds aggregate-aggregate; aggregate-matrix
 
   static constexpr const char *name = "Phases";
   template <class Visitor, class Self>
@@ -43,16 +43,16 @@ struct Phases {
       "Both strengths of bonds between aggregate and matrix, over those within the matrix.");
   }
 
-  // By the number of spheres of the aggregate in a pair.
+  // Indexed by the number of spheres of the aggregate in a pair.
   std::array<PhaseFactors, 3> factors() const { return {PhaseFactors{}, interface, aggregate}; }
   bool scatters() const { return aggregate.strength != 1 || interface.strength != 1; } // strengths differ
 };
 
-// Adds the column `phase` and fills it. Throws std::invalid_argument where an id is no particle's.
+// Adds the column `phase` and fills it. Throws std::invalid_argument if an id belongs to no particle.
 void mark_phases(Particles &particles, const Phases &phases);
-// Spheres of the aggregate in a pair; 0 where there are no phases.
+// Number of spheres of the aggregate in a pair; 0 without phases.
 int aggregates_of_pair(const Particles &particles, int first, int second);
-// Multiplies stiffness and strength of each bond by the factors of its kind. Bonds must be as they were laid.
+// Multiplies stiffness and strength of each bond by the factors of its kind. Bonds must be as created.
 void apply_phases(Bonds &bonds, const Particles &particles, const Phases &phases);
 
 struct StrengthScatter {
@@ -67,12 +67,12 @@ struct StrengthScatter {
   }
 };
 
-// `count` numbers of the distribution P(s < x) = 1 - exp(-(x/s_0)^m), s_0 = 1 / Gamma(1 + 1/m), whose mean is
-// 1 (Weibull 1951): always the same ones for a seed, the first of them whatever the count. Throws
+// `count` random numbers with the distribution P(s < x) = 1 - exp(-(x/s_0)^m), s_0 = 1 / Gamma(1 + 1/m),
+// whose mean is 1 (Weibull 1951). A seed gives always the same sequence; `count` sets only its length. Throws
 // std::invalid_argument unless m is positive and finite.
 std::vector<double> weibull_factors(std::size_t count, const StrengthScatter &scatter);
 
-// Multiplies the strength factor of each bond, in the order of records. Bonds must be as they were laid.
+// Multiplies the strength factor of each bond, in the order of records. Bonds must be as created.
 void scatter_strengths(Bonds &bonds, const StrengthScatter &scatter);
 
 } // namespace platen::dem

@@ -50,7 +50,7 @@ kernels::MotionColumns columns_of(Particles &p) {
   return c;
 }
 
-// Of the blocks that it went through, in their order.
+// Returns the sums of each block, 0 for blocks that are not listed.
 std::vector<MotionSums> pass(const Integrator &how, Halves halves, Particles &p, const Ghosts &ghosts,
                              double finished, double next, const BlockList *listed) {
   const kernels::MotionKernel kernel = kernel_of(how, halves);

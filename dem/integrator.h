@@ -21,14 +21,14 @@ struct KickSums {
   ExactSum unbalanced;     // N, sum of |net force| before damping
 };
 
-// Whose ghosts the end of a step returns; null: none.
+// Pair blocks whose ghosts are returned at the end of a step; null: none.
 struct Ghosts {
   const PairBlocks *bonds = nullptr, *contacts = nullptr;
 };
 
-// Local damping of a load F on what moves at v: of each component on its own, F -= alpha |F| sign(v) (Cundall
-// 1987), or of the whole along the velocity, F -= alpha |F| v/|v|, which no choice of axes changes (Onate et
-// al. 2015).
+// Local damping of a load F at the velocity v: of each component by itself, F -= alpha |F| sign(v) (Cundall
+// 1987), or of the whole vector along the velocity, F -= alpha |F| v/|v|, which does not depend on the axes
+// (Onate et al. 2015).
 enum class DampingForm { component, vector };
 
 enum class Scheme { velocity_verlet, tchamwa_wielgosz };
@@ -45,26 +45,25 @@ struct Integrator {
   double dissipation = 1;
   DampingForm damping_form = DampingForm::component;
 
-  // All for the blocks that are listed, where a list is given, and for all particles else.
-  // First half kick and drift: v += dt/2 F/m, x += dt v, q = Exp(dt w) q. With a dissipation phi the velocity
-  // of the drift, which `velocity` holds until `end`, is larger by (phi - 1) dt F/m. Returns the largest
-  // speed.
+  // All functions process the listed blocks if a list is given, otherwise all particles. First half kick and
+  // drift: v += dt/2 F/m, x += dt v, q = Exp(dt w) q. With a dissipation phi the velocity of the drift, which
+  // `velocity` holds until `end`, is larger by (phi - 1) dt F/m.
   Motion begin(Particles &particles, double dt, const BlockList *listed = nullptr) const;
-  // Returns ghosts, damps, makes the second half kick. Forces and torques are then
-  // complete and damped. Without a ledger all sums but that of unbalanced forces are 0.
+  // Returns ghosts, applies damping and the second half kick. Forces and torques are then complete and
+  // damped. Without a ledger all sums except `unbalanced` are 0.
   KickSums end(Particles &particles, const Ghosts &ghosts, double dt,
                const BlockList *listed = nullptr) const;
-  // end(finished), then begin(next), in one pass, to the same bits; forces are left incomplete, and kinetic
+  // end(finished), then begin(next), in one pass, with the same bits; forces stay undamped, and kinetic
   // energy and unbalanced force are not summed.
   Motion end_and_begin(Particles &particles, const Ghosts &ghosts, double finished, double next,
                        KickSums &sums, const BlockList *listed = nullptr) const;
 };
 
-// Sets force to the weight and torque to zero, where no bonds do.
+// Sets force to the weight and torque to zero, for models without bonds.
 void set_weight(Particles &particles, const Vector3 &gravity, const BlockList *listed = nullptr);
 
 double kinetic_energy(const Particles &particles);
-// Of each block of particles, or of those that are listed; J.
+// J, of each block of particles, or of the listed ones.
 std::vector<double> kinetic_energy_of_blocks(const Particles &particles, const BlockList *listed = nullptr);
 
 } // namespace platen::dem

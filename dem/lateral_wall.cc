@@ -89,7 +89,7 @@ std::vector<GroundSpring> LateralWall::ground_springs(const Particles &p) const 
   return springs;
 }
 
-// The list is found anew from the positions; of older states force and energy are known after the next step.
+// The list is rebuilt from the positions; with older states, force and energy are known after the next step.
 void LateralWall::describe(Archive &archive) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   archive.version(1);

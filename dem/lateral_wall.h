@@ -1,5 +1,5 @@
-// A stiff frictionless wall around the specimen, with the shape that the specimen had at first: it holds the
-// lateral strain at zero (oedometer, uniaxial strain compaction) and tells the pressure that this takes.
+// A stiff frictionless wall around the specimen, with the initial shape of the specimen: it keeps the lateral
+// strain at zero (oedometer, uniaxial strain compaction) and reports the pressure that this needs.
 #pragma once
 
 #include <vector>
@@ -13,19 +13,19 @@ namespace platen::dem {
 
 class LateralWall {
 public:
-  // Spring of `stiffness` (N/m) for each sphere that reaches the wall. Spheres whose surface lies within
-  // `layer` (m) of it are seated at their own gap, as if the specimen had been cast against the wall.
+  // Spring of `stiffness` (N/m) for each sphere that reaches the wall. If the sphere's surface is within
+  // `layer` (m), the spring begins at the initial gap, as if the specimen had been cast against the wall.
   LateralWall(const Particles &particles, const Shape &shape, double stiffness, double layer);
 
-  // Once a step, after the drift; no particle has moved by more than `distance` (m).
+  // To call once a step, after the drift; no particle has moved by more than `distance` (m).
   void add_forces(Particles &particles, double distance);
-  void make_list(const Particles &particles); // of spheres near the wall; anew in any case
+  void make_list(const Particles &particles); // of spheres near the wall; always rebuilt
   void describe(Archive &archive);
 
   double force() const { return force_; }                   // N, sum of the normal forces of the last step
   double elastic_energy() const { return elastic_energy_; } // J, of the last step
   std::size_t seats() const;
-  // Whether add_forces() will list them anew; rows of those that are listed, ascending; how often they were.
+  // Whether add_forces() will rebuild the list; listed rows, ascending; number of rebuilds.
   bool lists_anew(double distance) const { return !valid_ || moved_ + distance > skin_; }
   std::vector<int> particles() const;
   long lists_made() const { return lists_made_; }

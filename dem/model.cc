@@ -13,7 +13,7 @@
 namespace platen::dem {
 namespace {
 
-// Broken rows are dropped once they are this share of all rows.
+// Broken rows are dropped when they exceed this fraction of all rows.
 constexpr double compaction_share = 0.02;
 const ModelSettings &checked(const ModelSettings &settings) {
   require_in_range(settings);
@@ -30,7 +30,7 @@ bool rubs(const ModelSettings &s) {
   return s.contact && s.contact->tangential != TangentialContact::none;
 }
 
-// Contacts between grains of two phases follow their bonds.
+// Contacts between grains of two phases have the modulus factors of their bonds.
 ContactSettings contact_settings(const ModelSettings &s) {
   ContactSettings contact = *s.contact;
   if (s.phases)
@@ -39,7 +39,7 @@ ContactSettings contact_settings(const ModelSettings &s) {
   return contact;
 }
 
-// The order of the input is that of all particles.
+// Each input number must occur once among the particles.
 void require_each_once(const StateSource &state, const std::string &block) {
   const std::vector<int> ids = rows_of<int>(state, block);
   std::vector<char> seen(ids.size(), 0);
@@ -88,8 +88,8 @@ void Model::begin_step(double dt) {
   begun(dt);
 }
 
-// Broken rows are dropped before forces, not after: ghosts wait for the end of the step in blocks as they are
-// cut now.
+// Broken rows are dropped before forces are computed, not after: ghosts need the present blocks until the end
+// of the step.
 void Model::begun(double dt) {
   time += dt;
   last_step_ = dt;
@@ -131,8 +131,8 @@ void Model::compute_block_again(std::size_t block) {
     compute_bond_forces_again(particles, *bonds, settings_.instruction_set, settings_.gravity, block);
 }
 
-// Blocks whose bonds have broken are computed again in the loop over contacts, before those of each are
-// added.
+// Blocks with newly broken bonds are computed again in the loop over contacts, before the contacts of the
+// block are added.
 void Model::compute_contacts(double dt, const BlockList *listed) {
   const auto again = [this](std::size_t block) { compute_block_again(block); };
   if (!contacts) return compute_again();
@@ -236,7 +236,7 @@ void Model::end_and_begin_step(double finished, double next) {
   begun(next);
 }
 
-// Added in the order of blocks.
+// Adds in the order of blocks.
 template <class Part>
 Part Model::sum_of_blocks(std::vector<Part> parts) const {
   static_assert(std::is_trivially_copyable_v<Part>, "sent as bytes");
@@ -327,13 +327,13 @@ StableStep Model::stable_step(const std::vector<GroundSpring> &ground, double su
 
 void Model::describe(Archive &archive) {
   archive.version(1);
-  std::string set = name(settings_.instruction_set); // told; a state of another one is taken as it is
+  std::string set = name(settings_.instruction_set); // for information; a state of another set is accepted
   archive.text("instruction_set", set);
   archive("time", time, "s", at_least(0));
   platen::describe(archive, "damping_work", works.damping, "J");
   platen::describe(archive, "fracture_work", works.fracture, "J");
   platen::describe(archive, "weight_work", works.weight, "J");
-  double unbalanced = sums_.unbalanced; // N, of the last step; older states do not know it
+  double unbalanced = sums_.unbalanced; // N, of the last step; older states do not contain it
   archive("unbalanced", unbalanced, "N", std::numeric_limits<double>::quiet_NaN(), or_nan(at_least(0)));
   if (archive.reads()) sums_.unbalanced = ExactSum(unbalanced);
   archive("broken_tension", broken_tension, "1", at_least(0));

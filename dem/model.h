@@ -1,4 +1,4 @@
-// The specimen: its tables, the effects that its scene calls for, and the stages of one step in their order.
+// The specimen: its tables, the effects that its scene requires, and the stages of one step in order.
 #pragma once
 
 #include <functional>
@@ -21,7 +21,7 @@
 
 namespace platen::dem {
 
-// Whose density is given: that of the grains, or that of the solid which they stand for, voids included.
+// Whether the density is that of the grains or that of the solid which they represent, voids included.
 enum class DensityOf { grains, solid };
 
 struct ModelSettings {
@@ -41,7 +41,7 @@ struct ModelSettings {
   InstructionSet instruction_set = best_instruction_set();
   Scheme scheme = Scheme::velocity_verlet;
   double dissipation = 1.1; // phi of Tchamwa and Wielgosz, 1 ... 1.5; 1: velocity Verlet
-  std::optional<StrengthScatter> strength_scatter; // none: all bonds are as strong
+  std::optional<StrengthScatter> strength_scatter; // none: all bonds have the same strength
   std::optional<Phases> phases;                    // none: all grains are alike
 
   double phi() const { return scheme == Scheme::tchamwa_wielgosz ? dissipation : 1; } // of the scheme chosen
@@ -74,8 +74,8 @@ void ModelSettings::describe(Visitor &&v, Self &p) {
     "Verlet.");
 }
 
-// Density of the grains before mass scaling, kg/m^3: of a solid, such that all spheres together weigh what
-// the specimen's shape filled with it weighs. Throws std::invalid_argument where that shape has no volume.
+// Density of the grains before mass scaling, kg/m^3. For a solid, all spheres together have the mass of the
+// specimen's shape filled with it. Throws std::invalid_argument if shape or spheres have no volume.
 double grain_density(const Specimen &specimen, double density, DensityOf of);
 
 // One bond failure, for the crack log.
@@ -87,11 +87,11 @@ struct Crack {
   double energy = 0;                  // J, released
   int particle_a = 0, particle_b = 0; // input ids
   int record = 0;                     // of the bond
-  double strain = 0;                  // of the test that the specimen is in, where it tells one
+  double strain = 0;                  // of the test, if the test reports one
 };
 
-// One step: begin_step, forces, then surfaces add to particles, then end_step. Between steps whose end nobody
-// looks at, end_and_begin_step does both in one pass, to the same bits.
+// One step: begin_step, compute_forces, forces of surfaces, end_step. If nothing reads the state between two
+// steps, end_and_begin_step does both in one pass, with the same bits.
 class Model {
 public:
   Model(const Specimen &specimen, const ModelSettings &settings);
@@ -107,20 +107,20 @@ public:
 
   // First half kick and drift; time becomes that of the new positions.
   void begin_step(double dt);
-  // Contact search, bonds, breaks and their hand-over, grain contacts. Particle force and torque hold them
-  // and the weight, but for what waits in the ghosts. `beside` is done too, while threads have hands free: it
-  // may read particles but write nothing of theirs. Throws NotFinite where the search meets such a place.
-  // On ranks `done` is called once `beside` is, while there is work left.
+  // Contact search, bonds, breaks and their transfer to contacts, grain contacts. Particle force and torque
+  // then contain these and the weight, except what is still in the ghosts. `beside` runs on free threads: it
+  // may read particles but must not write them. Throws NotFinite if the search finds a position that is not
+  // finite. With ranks, `done` is called after `beside`, while work remains.
   void compute_forces(double dt, const Loop &beside = {}, const std::function<void()> &done = {});
-  // Ghosts of bonds, damping, second half kick; forces are complete then.
+  // Ghosts of bonds and contacts, damping, second half kick; forces are then complete.
   void end_step(double dt);
   void end_and_begin_step(double finished, double next);
 
-  // Without bodies and surfaces; not numbers without a ledger. This and what follows are of the whole
-  // specimen: where it is cut all ranks ask together, after settle().
+  // Without bodies and surfaces; NaN without a ledger. This and the following functions are for the whole
+  // specimen: if it is cut, all ranks call them together, after settle().
   EnergyLedger energy() const;
   BondTotals bond_totals() const; // needs bonds
-  double unbalanced() const;      // N, sum of the sizes of net forces at the end of the last step
+  double unbalanced() const;      // N, sum of the magnitudes of net forces at the end of the last step
   std::size_t touching_count() const;
   std::size_t intact_bonds() const;
   const KickSums &last_sums() const { return sums_; }
@@ -140,18 +140,18 @@ public:
   };
   Works works;
   long broken_tension = 0, broken_shear = 0;
-  // Up to the step before, where a step is being made: what decides in a step must not wait for other ranks.
+  // During a step: breaks up to the step before, so that decisions in a step need not wait for other ranks.
   long known_breaks() const { return known_breaks_; }
-  // Of the bonds that broke in this step.
+  // For the bonds that broke in this step.
   void set_strain_of_cracks(double strain);
 
-  // Cut over ranks: from the next step on this one computes the blocks that the exchange gives it. Between
-  // steps the model is whole again after gather(); a step cuts it by itself. settle() makes counts, cracks
-  // and records known to all. All ranks call these together.
+  // Cuts the specimen over ranks: from the next step on this rank computes the blocks that the exchange
+  // assigns. gather() makes the model complete between steps; the next step cuts it again. settle() sends
+  // counts, cracks and records to all ranks. All ranks call these together.
   void share(std::unique_ptr<Exchange> exchange);
-  Exchange *exchange() const { return exchange_.get(); } // null: alone
+  Exchange *exchange() const { return exchange_.get(); } // null: one process
   bool is_cut() const { return cut_; }
-  // Of sums to which each rank has added its own part since the specimen was cut.
+  // Visits the sums to which each rank has added its own part since the specimen was cut.
   template <class Visit>
   void visit_sums(const Visit &visit) {
     visit(works.damping), visit(works.weight);
@@ -161,11 +161,11 @@ public:
   void gather();
   void scatter();
   void settle();
-  // Motion of all particles, and what settle() does: enough for sums and measures of places, not for those of
-  // rows of bonds and contacts.
+  // Gathers the motion of all particles and does settle(): enough for sums and measures of positions, not for
+  // measures of rows of bonds and contacts.
   void gather_motion();
-  // Before a state is written by all ranks together, each its own rows: what is in no row is known to the
-  // first rank then, and broken rows are dropped.
+  // To call before all ranks write a state together, each its own rows: drops broken rows and gives the first
+  // rank all data that is in no row.
   void settle_state();
 
 private:
@@ -174,11 +174,11 @@ private:
   KickSums sums_;
   Motion motion_;
   std::vector<BondBreak> breaks_; // of the blocks that were computed since the last finish_breaks()
-  std::vector<char> again_;       // blocks whose bonds have broken and are to be computed again; or empty
+  std::vector<char> again_;       // marks of blocks to compute again after breaks; or empty
   std::unique_ptr<Exchange> exchange_;
   bool cut_ = false;             // only own rows are up to date
   std::vector<Crack> unsettled_; // of own rows, while the specimen is cut
-  long own_breaks_ = 0;          // since it is shared
+  long own_breaks_ = 0;          // since the specimen was cut
   long known_breaks_ = 0, breaks_before_sharing_ = 0;
   void finish_breaks(double dt);
   void compute_contacts(double dt, const BlockList *listed);

@@ -1,5 +1,5 @@
-// A specimen that is cut over ranks: what its step does while messages are on their way, and how what the
-// ranks hold comes together.
+// A specimen that is cut over ranks: the work of a step during communication, and the collection of the data
+// of all ranks.
 #include <utility>
 
 #include "base/parallel.h"
@@ -8,12 +8,12 @@
 namespace platen::dem {
 namespace {
 
-// On ranks, of each thread: some fifty microseconds.
+// With ranks, per thread: about fifty microseconds.
 constexpr std::size_t blocks_between_progress = 2;
 
 } // namespace
 
-// Messages are on their way while inner blocks are computed.
+// Inner blocks are computed during the communication.
 void Model::start_exchange(double dt) {
   exchange_->send_motion(particles);
   exchange_->start_sums({motion_.fastest, motion_.speed_squares, own_breaks_});
@@ -24,8 +24,8 @@ void Model::start_exchange(double dt) {
   known_breaks_ = breaks_before_sharing_ + sums.breaks;
 }
 
-// Outer blocks come first, so that what they exert on particles of other ranks is under way while the rest of
-// the inner ones is computed.
+// Outer blocks come first, so that their forces on particles of other ranks are sent while the remaining
+// inner blocks are computed.
 void Model::compute_shared(double dt, const Loop &beside, const std::function<void()> &done) {
   const OwnBlocks &blocks = exchange_->blocks();
   compute_portions(dt, blocks.outer, beside);
@@ -39,7 +39,7 @@ void Model::compute_shared(double dt, const Loop &beside, const std::function<vo
   if (contacts) exchange_->send_contact_ghosts(contacts->blocks());
 }
 
-// What is done beside comes with the last of them.
+// `beside` runs with the last portion.
 void Model::compute_portions(double dt, const BlockList &listed, const Loop &beside) {
   const std::size_t portion = blocks_between_progress * static_cast<std::size_t>(loop_threads());
   BlockList some;

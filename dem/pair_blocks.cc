@@ -9,11 +9,11 @@
 namespace platen::dem {
 namespace {
 
-// Which ghost of a block each particle is.
+// Index of each particle among the ghosts of a block.
 class GhostPlaces {
 public:
   explicit GhostPlaces(std::size_t particles) : block_(particles, -1), place_(particles) {}
-  // Rows of particles that the pairs of a block reach outside it, ascending, each once.
+  // Collects the rows of particles outside a block that its pairs reach, ascending, each once.
   void put(int block, const int *second, std::size_t from, std::size_t to, std::size_t end_row,
            std::vector<int> &outside) {
     outside.clear();
@@ -98,7 +98,7 @@ void PairBlocks::permute_pairs(std::size_t begin, const std::vector<int> &order)
   std::copy(moved.begin(), moved.end(), ends.begin() + static_cast<std::ptrdiff_t>(begin));
 }
 
-// By particle, and those of one particle by the block that they come from.
+// Sorted by particle, and for one particle by the block that the return comes from.
 void PairBlocks::order_returns(std::size_t count) {
   struct From {
     int particle, block, ghost;
@@ -110,7 +110,7 @@ void PairBlocks::order_returns(std::size_t count) {
       all.push_back({ghost_particle[g], static_cast<int>(b), static_cast<int>(g)});
   for (std::size_t k = 0; k < remote.size(); ++k)
     all.push_back({remote[k].particle, remote[k].block, static_cast<int>(own_ghosts() + k)});
-  if (!remote.empty()) // own ones come by blocks already
+  if (!remote.empty()) // own ghosts are in the order of blocks already
     std::stable_sort(all.begin(), all.end(), [](const From &a, const From &b) { return a.block < b.block; });
   std::vector<std::size_t> next(count * block_rows + 1, 0); // of each particle: where its returns begin
   for (const From &from : all)
@@ -137,7 +137,7 @@ void PairBlocks::add(int first, int second, std::size_t particles) {
   ends.push_back({row_size_ * (first - static_cast<int>(begin)), row_size_ * to});
 }
 
-// Behind the ghosts of all blocks.
+// Adds a ghost behind those of all blocks.
 int PairBlocks::new_ghost(int block, int particle) {
   const int ghost = static_cast<int>(ghost_particle.size());
   ghost_particle.push_back(particle);
@@ -179,7 +179,7 @@ int PairBlocks::ghost_of(int block, int particle) const {
   return -1;
 }
 
-// Those of one particle in the order of the blocks that they come from.
+// Ghosts of one particle are added in the order of the blocks that they come from.
 void return_ghosts(Particles &p, const PairBlocks &blocks, std::size_t block) {
   if (blocks.ghost_force.empty()) return;
   const bool turning = p.has_rotation();

@@ -1,5 +1,5 @@
-// Rows that are sorted by a pair of particles, in one list for each block of first particles: a pair that is
-// added moves rows of its block alone, however large the specimen is.
+// Rows sorted by a pair of particles, in one list per block of first particles, so that adding a pair moves
+// rows of its block only.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +13,11 @@
 
 namespace platen::dem {
 
-// Row: converts to the IndexPair that it is sorted by.
+// Row converts to the IndexPair by which it is sorted.
 template <class Row>
 class PairLists {
 public:
-  // From rows in their order.
+  // Rows must be sorted.
   void assign(const std::vector<Row> &rows) {
     blocks_.clear();
     auto from = rows.begin();
@@ -30,7 +30,7 @@ public:
     }
     size_ = rows.size();
   }
-  // Whether it was not there. Otherwise its row stays as it is.
+  // Returns whether the pair is new. Otherwise its row is not changed.
   bool insert(const Row &row) {
     std::vector<Row> &list = list_of(block_of(row));
     const auto at = place(list, row);
@@ -40,7 +40,7 @@ public:
     ++size_;
     return true;
   }
-  // Null where there is none.
+  // Null if there is none.
   const Row *find(IndexPair pair) const {
     const std::size_t block = block_of(pair);
     if (block >= blocks_.size()) return nullptr;
@@ -48,7 +48,7 @@ public:
     return at != blocks_[block].end() && IndexPair(*at) == pair ? &*at : nullptr;
   }
   Row *find(IndexPair pair) { return const_cast<Row *>(std::as_const(*this).find(pair)); }
-  // Only of rows that keep(row) is true of.
+  // Rows for which keep(row) is true.
   template <class Keep>
   std::vector<Row> rows_if(const Keep &keep) const {
     std::vector<Row> rows;
@@ -56,7 +56,7 @@ public:
       std::copy_if(list.begin(), list.end(), std::back_inserter(rows), keep);
     return rows;
   }
-  // All of them, in their order.
+  // All rows, in order.
   std::vector<Row> rows() const {
     std::vector<Row> rows;
     rows.reserve(size_);

@@ -1,4 +1,4 @@
-// What pairs of particles must be in a state that is about to be read.
+// Check of the pairs of particles in a state before it is read.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +7,9 @@
 
 namespace platen::dem {
 
-// Pairs of particle rows from two columns, or of a list of both. Throws StateError, naming the block and the
-// row, where a pair names a row at or beyond `rows`, is not (lower, higher), or does not stand behind the one
-// before it: searches and sums go by that order.
+// Pairs of particle rows from two columns, or of a list of both. Throws StateError with the block and the row
+// if a pair has a row at or beyond `rows`, is not (lower, higher), or is not larger than the pair before it:
+// searches and sums need that order.
 void require_ascending_pairs(const std::string &block, const std::vector<int> &first,
                              const std::vector<int> &second, std::size_t rows);
 

@@ -24,10 +24,10 @@ std::uint64_t spread_bits(std::uint64_t v) {
   return v;
 }
 
-// A contact of two or a sphere with its neighbours is named whole.
+// Enough to name both particles of a contact, or a sphere with its neighbours.
 constexpr std::size_t most_named = 16;
 
-// By the bits of the exponent, which the compiler can do in lanes.
+// Tests the bits of the exponent, which the compiler can vectorise.
 bool finite(const double *numbers, std::size_t count) {
   constexpr std::uint64_t exponent = 0x7ff0000000000000;
   std::uint64_t bad = 0;

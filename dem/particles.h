@@ -13,9 +13,9 @@ namespace platen::dem {
 
 struct Specimen;
 
-// Motion and forces live on one clock: between drift and the second half kick `velocity` and
-// `angular_velocity` hold the values by which particles drifted, with velocity Verlet those of the half step;
-// after it the full-step ones (docs/theory.md, time integration).
+// Between the drift and the second half kick, `velocity` and `angular_velocity` hold the values of the drift,
+// with velocity Verlet those of the half step; after the kick they hold the full-step values (docs/theory.md,
+// time integration).
 struct Particles {
   Table table;
   Column<int> &id = table.add<int>("id", "1");
@@ -31,7 +31,7 @@ struct Particles {
   Column<Vector3> *torque = nullptr;           // N m, about the centre, global axes
   Column<double> *inertia = nullptr;           // kg m^2, 2/5 m R^2
   Column<int> *phase = nullptr;                // Phase; only with phases
-  // Only with a dissipative scheme: what the drift had above the half-step values; the second with rotation.
+  // Only with a dissipative scheme: drift value minus half-step value; the second only with rotation.
   Column<Vector3> *excess_velocity = nullptr, *excess_spin = nullptr; // m/s, rad/s
 
   Particles() = default;
@@ -46,33 +46,31 @@ struct Particles {
   void add_excess();
 };
 
-// Order in which centres follow a Morton curve through their bounding box: order[k] is the input row of row
-// k.
+// Order of centres along a Morton curve through their bounding box: order[k] is the input row of row k.
 std::vector<int> spatial_order(const std::vector<Vector3> &centres);
 
-// m; 1 of no particles.
+// m; 1 without particles.
 inline double mean_radius(const Particles &particles) {
   const double sum = std::accumulate(particles.radius.begin(), particles.radius.end(), 0.0);
   return particles.size() == 0 ? 1.0 : sum / static_cast<double>(particles.size());
 }
 
-// Of two masses, inertias or radii that a spring joins.
+// Reduced value of two masses, inertias or radii that a spring joins.
 inline double reduced(double a, double b) {
   return a * b / (a + b);
 }
 
-// Thrown where a search meets a centre that is not finite; Problem says then whose it is.
+// Thrown if a search finds a centre that is not finite; Problem then names the particle.
 class NotFinite : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
 };
 
-// Whether position, velocity and, with rotation, orientation and angular velocity of all are finite.
+// Whether position, velocity and, with rotation, orientation and angular velocity are all finite.
 bool motion_is_finite(const Particles &particles);
 
-// Where numbers are not finite, as a message says it: "velocity of particle 17", "position, velocity of
-// particles 3, 17 and 5 more". Ids are those of the input. Empty where all are finite. Checks every column
-// of numbers.
+// Text that names the values that are not finite: "velocity of particle 17", "position, velocity of particles
+// 3, 17 and 5 more". Ids are those of the input. Empty if all are finite. Checks every column of numbers.
 std::string not_finite(const Particles &particles);
 
 } // namespace platen::dem

@@ -15,16 +15,16 @@
 namespace platen::dem {
 namespace {
 
-// Ball over sphere radius. Below about 1.7 pores of a jammed packing show through.
+// Ball radius over sphere radius. Below about 1.7, pores of a jammed packing appear in the skin.
 constexpr double ball = 2;
-// Edge of the cubes that tell outside from pores, in mean radii.
+// Edge of the cubes that separate outside from pores, in mean radii.
 constexpr double cube_edge = 0.5;
-// A corner of the solid of 32 faces lies less than this times the ball's radius from its centre.
+// Corners of the solid of 32 faces lie less than this times the ball's radius from its centre.
 constexpr double corner = 1.1;
-constexpr int own_face = -11, platen_face = -12; // names of faces of a cell; neighbours have theirs, >= 0
+constexpr int own_face = -11, platen_face = -12; // names of cell faces; those to neighbours are >= 0
 constexpr std::size_t cells_at_once = 32;
 
-// Towards the corners of an icosahedron and of a dodecahedron.
+// Unit vectors to the corners of an icosahedron and of a dodecahedron.
 std::vector<Vector3> directions() {
   const double g = 0.5 * (1 + std::sqrt(5.0));
   std::vector<Vector3> all;
@@ -63,8 +63,8 @@ Balls balls_of(const Particles &p, const std::vector<char> &body) {
   return b;
 }
 
-// Area of one ball's own surface in its cell of the power diagram, m^2. Lengths inside are over b.unit: the
-// cell's tolerances are absolute.
+// Area of one ball's own surface in its cell of the power diagram, m^2. Internal lengths are divided by
+// b.unit, because the cell's tolerances are absolute.
 Vector3 area_of(const Balls &b, std::size_t i, const PointGrid &grid, const std::vector<Vector3> &solid,
                 const EndPlanes &planes) {
   const Vector3 x = b.centre[i];
@@ -75,10 +75,10 @@ Vector3 area_of(const Balls &b, std::size_t i, const PointGrid &grid, const std:
   const auto cut = [&](const Vector3 &towards, double square, int name) {
     if (left) left = cell.nplane(towards.x, towards.y, towards.z, square, name);
   };
-  // A plane at distance d along a unit vector is that of a twin at 2 d.
+  // A plane at distance d along a unit vector is that of an equal ball at 2 d.
   for (const Vector3 &n : solid)
     cut(2 * r * n, 4 * r * r, own_face);
-  constexpr double least = 1e-3; // a centre that has come through a platen keeps a sliver
+  constexpr double least = 1e-3; // a centre behind a platen keeps a thin cell
   const double above = std::max(least, (planes.high - x.z) / b.unit),
                below = std::max(least, (x.z - planes.low) / b.unit);
   cut({0, 0, 2 * above}, 4 * above * above, platen_face);
@@ -115,7 +115,7 @@ Outside::Outside(const std::vector<Vector3> &centres, const std::vector<double> 
       high[k] = std::max(high[k], centres[i][k] + radii[i]);
     }
   if (centres.empty()) return;
-  // Two cubes of free space on every side, where the flood begins.
+  // Two cubes of free space on every side, where the flood fill begins.
   for (int k = 0; k < 2; ++k)
     low[k] -= 2 * edge, high[k] += 2 * edge;
   low_ = low;
@@ -130,7 +130,7 @@ Outside::Outside(const std::vector<Vector3> &centres, const std::vector<double> 
   flood();
 }
 
-// visit(cube) for the cubes whose centre lies within `reach`, until it says false.
+// Calls visit(cube) for the cubes whose centre lies within `reach`, until it returns false.
 template <class Visit>
 void Outside::visit_near(const Vector3 &point, double reach, const Visit &visit) const {
   int first[3], last[3], at[3];

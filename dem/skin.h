@@ -1,11 +1,11 @@
-// The lateral surface of a body of spheres, shared out to the spheres that make it.
+// The lateral surface of a body of spheres, divided among the spheres that form it.
 //
-// Each sphere is given a ball of twice its radius, so that neighbours' balls overlap and leave no pore
-// between grains that touch. The power diagram of the balls cuts each to a cell; what is left of the ball's
-// own surface (a solid of 32 faces stands for it) is its part of the skin, and the sum of the outward area
-// vectors of these faces is the sphere's area. A cell is closed, so areas depend on where the ball's surface
-// is cut and not on how it bulges between. The planes of the platens end the skin; pores and narrow cracks
-// have none.
+// Each sphere gets a ball of twice its radius, so that neighbouring balls overlap and leave no pore between
+// touching grains. The power diagram cuts each ball to a cell. The rest of the ball's own surface
+// (approximated by a solid of 32 faces) is its part of the skin, and the sum of the outward area vectors of
+// these faces is the sphere's area. A cell is closed, so areas depend on where the ball's surface is cut and
+// not on its shape in between. The planes of the platens bound the skin; pores and narrow cracks have no
+// skin.
 #pragma once
 
 #include <cstddef>
@@ -21,14 +21,14 @@ struct EndPlanes {
   double low = 0, high = 0; // m, z
 };
 
-// Cubes between two planes of z that no ball holds and that are joined, face to face, to the space beside the
-// body. Pores inside the body are not among them, nor gaps narrower than a cube.
+// Cubes between two planes of z whose centre is in no ball and that are connected, face to face, to the space
+// around the body. Pores inside the body and gaps narrower than a cube are not included.
 class Outside {
 public:
   // Balls by centre and radius (m); cubes of the given edge (m).
   Outside(const std::vector<Vector3> &centres, const std::vector<double> &radii, const EndPlanes &planes,
           double edge);
-  // Whether the centre of a cube of the outside lies within `reach` (m) of a point.
+  // Whether the centre of an outside cube lies within `reach` (m) of a point.
   bool within(const Vector3 &point, double reach) const;
 
 private:
@@ -51,12 +51,12 @@ struct Skin {
   std::vector<Vector3> area; // m^2, outward
 };
 
-// Of the spheres marked in `body` (one mark per row).
+// Skin of the spheres marked in `body` (one mark per row).
 Skin find_skin(const Particles &particles, const std::vector<char> &body, const EndPlanes &planes);
 
-// Changes area vectors by as little as their own size allows, each by |a| (b + w x (x - c)), so that a
-// uniform pressure has neither force nor moment: sum a = 0 and sum x x a = 0. Returns |sum a| before, over
-// the sum of |a|. A skin of fewer than three spheres stays as it is.
+// Corrects each area vector by |a| (b + w x (x - c)), the smallest change relative to its size, so that a
+// uniform pressure has no resultant force or moment: sum a = 0 and sum x x a = 0. Returns |sum a| before,
+// over the sum of |a|. Does not change a skin of fewer than three spheres.
 double balance(Skin &skin, const Particles &particles);
 
 } // namespace platen::dem

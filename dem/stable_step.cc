@@ -49,7 +49,7 @@ void multiply(Mode &a, double s) {
   });
 }
 
-// Constant of a dashpot, from the spring beside it and the mass (or inertia) that hangs on it.
+// Coefficient of a dashpot, from its parallel spring and the mass (or inertia) attached to it.
 double dashpot(double fraction, double stiffness, double mass) {
   return 2 * fraction * std::sqrt(stiffness * mass);
 }
@@ -99,7 +99,7 @@ public:
   Mode apply(const Mode &x);
 
 private:
-  // A bond that breaks leaves a contact, which may be the stiffer of the two.
+  // A broken bond leaves a contact, which may be stiffer than the bond.
   void add_bonds(const Bonds &b, const Contacts *contacts) {
     for (std::size_t k = 0; k < b.size(); ++k) {
       const BondStiffness s = b.stiffness(k);
@@ -188,7 +188,7 @@ Mode Operator::apply(const Mode &x) {
   return y;
 }
 
-// The same start on every machine; every mode has a share in it.
+// The same start on every machine; it contains a part of every mode.
 Mode start_mode(std::size_t n, bool turning) {
   std::uint64_t state = 0x9e3779b97f4a7c15ULL;
   const auto next = [&state] { return static_cast<double>(split_mix(state) >> 11) * 0x1.0p-52 - 1.0; };
@@ -213,7 +213,7 @@ int largest_particle(const Mode &mode) {
   return static_cast<int>(best);
 }
 
-// What holds the particles, in words.
+// Names of the springs that act on the particles.
 std::string springs_of(const Bonds *bonds, const Contacts *contacts,
                        const std::vector<GroundSpring> &ground) {
   std::vector<std::string> parts;
@@ -228,12 +228,12 @@ std::string springs_of(const Bonds *bonds, const Contacts *contacts,
 
 } // namespace
 
-// The dashpots see half-step velocities, so that the scheme is stable while dt^2 K + 2 dt C <= 4 M. With the
-// largest eigenvalues of K and C apart (their sum is an upper bound) that is a quadratic equation for dt. A
-// dashpot of fraction xi of a pair damps the highest mode of a network by more than xi, because that mode is
-// faster than the pair. With a dissipation phi, at
-// the limit, where every step turns the motion round, the drift is that of (2 phi - 1) times the force: both
-// terms grow by that, to (2 phi - 1) (dt^2 K + 2 dt C) <= 4 M.
+// The dashpots use half-step velocities, so that the scheme is stable while dt^2 K + 2 dt C <= 4 M. With the
+// largest eigenvalues of K and C taken separately (their sum is an upper bound) this is a quadratic equation
+// for dt. A dashpot of fraction xi of a pair damps the highest mode of a network by more than xi, because
+// that mode is faster than the pair. At the limit, where every step reverses the motion, the drift with a
+// dissipation phi is that of (2 phi - 1) times the force, and both terms grow by this factor: (2 phi - 1)
+// (dt^2 K + 2 dt C) <= 4 M.
 StableStep stable_step(const Particles &particles, const Bonds *bonds, const Contacts *contacts,
                        const std::vector<GroundSpring> &ground, const DashpotFractions &dashpots,
                        double sought_below) {
@@ -242,8 +242,8 @@ StableStep stable_step(const Particles &particles, const Bonds *bonds, const Con
   result.reason = "nothing elastic in the scene limits the step";
   Operator stiffness(Matrix::stiffness, particles, bonds, contacts, ground, dashpots);
   if (particles.size() == 0 || stiffness.empty()) return result;
-  // To 1 % of omega^2: the step comes out at most 0.5 % too small. Who asks whether it is below another one
-  // gets as much as tells it.
+  // Accuracy 1 % of omega^2: the step is at most 0.5 % too small. The iteration stops earlier if omega^2 is
+  // certainly below `enough`.
   const Mode start = start_mode(particles.size(), particles.has_rotation());
   const auto largest = [&](Operator &matrix, double enough) {
     LanczosLimits limits;
@@ -253,7 +253,7 @@ StableStep stable_step(const Particles &particles, const Bonds *bonds, const Con
   Operator damping(Matrix::damping, particles, bonds, contacts, ground, dashpots);
   const double rate = damping.empty() ? 0.0 : largest(damping, 0).value; // 1/s
   const double holding = (1 + dashpots.local) * (2 * dashpots.scheme - 1), c = holding * rate;
-  // At sought_below the equation gives what omega^2 must stay under.
+  // The value of omega^2 at which the limit is sought_below.
   const double enough = (4 / sought_below - 2 * c) / (sought_below * holding);
   LargestEigenvalue<Mode> squared = largest(stiffness, enough);
   result.iterations = squared.iterations;
@@ -262,7 +262,7 @@ StableStep stable_step(const Particles &particles, const Bonds *bonds, const Con
   result.limit = (std::sqrt(c * c + 4 * k) - c) / k;
   result.reason = "2/omega of " + springs_of(bonds, contacts, ground);
   if (!(result.limit < sought_below)) return result;
-  // A few more applications bring out the place that sets the limit.
+  // A few more applications show the particle that sets the limit.
   Mode &x = squared.mode;
   for (int it = 0; it < 12; ++it) {
     x = stiffness.apply(x);

@@ -14,7 +14,7 @@ constexpr std::array<const char *, stage_count> stage_names{
 
 class StageClock {
 public:
-  // Times from construction to destruction.
+  // Measures the time from construction to destruction.
   class Lap {
   public:
     Lap(StageClock &clock, Stage stage) : clock_(clock), stage_(stage) {}

@@ -18,7 +18,7 @@ Vector3 vector(const Triple<double> &a) {
   return {a.x, a.y, a.z};
 }
 
-// Displacements and rotations of all particles since they were at rest.
+// Displacements and rotations of all particles since the last state of rest.
 struct Way {
   std::vector<Vector3> displacement, turn; // m, rad
   explicit Way(std::size_t particles) : displacement(particles), turn(particles) {}
@@ -32,7 +32,7 @@ struct Way {
   }
 };
 
-// Out of balance, on every particle: from outside, and of bonds.
+// Unbalanced forces on every particle: external forces plus bond forces.
 struct Forces {
   std::vector<Vector3> force, torque; // N, N m
 };
@@ -74,7 +74,7 @@ public:
     return m;
   }
 
-  // Adds up in the order of rows. `outside`: N, size of what prescribed particles and loads bring.
+  // Sums in the order of rows. `outside`: N, magnitude of loads and of forces on prescribed particles.
   Forces unbalanced(const Way &way, double &outside) const {
     Forces sum{load_.force, load_.torque};
     sum.force.resize(p_.size()), sum.torque.resize(p_.size());
@@ -104,7 +104,7 @@ public:
       square += size(i, of);
     return std::sqrt(square);
   }
-  // J, of these forces over a way.
+  // J, work of these forces over a displacement.
   double work(const Forces &of, const StaticState &by) const {
     double sum = 0;
     for (std::size_t i = 0; i < p_.size(); ++i)
@@ -130,7 +130,7 @@ public:
     return s;
   }
 
-  // What bonds remember there; throws where one breaks.
+  // Bond histories there; throws if a bond breaks.
   std::vector<State> states(const Way &way) const {
     std::vector<State> then = states_;
     for (std::size_t k = 0; k < then.size(); ++k) {
@@ -156,7 +156,7 @@ private:
   std::vector<State> states_; // at rest
 };
 
-// Of a correction as much as the forces allow: where they turn against it, about to where they are across.
+// Fraction of a correction to apply: 1, or about where its work is zero if forces then act against it.
 double share_of(const Increment &problem, const Way &way, const StaticState &by, double work_before) {
   double share = 1, low = 0, high = 1, at_low = work_before, outside = 0;
   for (int trial = 0; trial < 8; ++trial) {

@@ -1,6 +1,6 @@
-// Static equilibrium of a network whose bonds yield: from rest to rest by increments of what is prescribed,
-// each by Newton's method on the forces of the bonds' law, with its tangent, and the linear solver of
-// equilibrium.h. For yielding parallel bonds, whole ones or broken before; without contacts of other pairs.
+// Static equilibrium of a network whose bonds yield, by increments of prescribed motion between states of
+// rest, each by Newton's method on the forces of the bond law, with its tangent, and the linear solver of
+// equilibrium.h. For yielding parallel bonds, intact or broken before; without contacts of other pairs.
 #pragma once
 
 #include "dem/equilibrium.h"
@@ -8,25 +8,25 @@
 namespace platen::dem {
 
 struct YieldingSettings {
-  double tolerance = 1e-8; // of what is out of balance, over what acts on the network from outside
-  int most_solves = 60;    // linear ones, of an increment
+  double tolerance = 1e-8; // of the unbalanced forces over the external forces
+  int most_solves = 60;    // linear solves per increment
   StaticSettings linear;   // of each solve
 };
 struct YieldingStep {
   int solves = 0;
-  double residual = 0; // over what acts from outside, as the tolerance
+  double residual = 0; // over the external forces, as for the tolerance
   StaticState moved;   // from the last state of rest
 };
 
-// Takes a network at rest to where it rests under the case: `prescribed` are motions from here, small in
-// rotation; `force` and `torque` all that act on the particles then. Positions, orientations and what bonds
-// remember are those of the new state; velocities stay. Bonds that yield do so along the way straight from
-// state to state, so that increments are to be as small as their kinks ask for.
+// Moves a network at rest to its equilibrium under the case: `prescribed` are motions from here with small
+// rotations; `force` and `torque` are the total loads on the particles. Positions, orientations and bond
+// histories become those of the new state; velocities stay. Bonds yield along the straight path between
+// states, so that increments must be small where the path bends.
 //
-// Throws std::invalid_argument where bonds do not yield so, the case does not fit the particles
-// (require_fitting) or has supports; NoEquilibrium where a bond would break, which sets free what inertia has
-// to carry off, or the residual does not fall. Then nothing is changed. The same on any number of threads, to
-// the last bit.
+// Throws std::invalid_argument if bonds follow another law, or the case does not fit the particles
+// (require_fitting) or has supports; NoEquilibrium if a bond would break, because the released energy needs
+// inertia, or if the residual does not fall. Then nothing is changed. The result is the same on any number of
+// threads, to the last bit.
 YieldingStep settle(Particles &particles, Bonds &bonds, const StaticCase &load,
                     const YieldingSettings &settings = {});
 

@@ -1,6 +1,5 @@
-// What a block of bonds works on: copies of the particles that it reaches, side by side in memory of the
-// thread, with the sums of what acts on them; one cache line to read and one to add to for each end of a
-// bond.
+// Working memory of a block of bonds: copies of the particles that it reaches, contiguous in memory of the
+// thread, with the sums of their loads; each end of a bond reads one cache line and adds to one.
 #pragma once
 
 #include "dem/kernels/bond_kernel.h"
@@ -15,8 +14,8 @@ struct Ends {
   const PairBlocks::Ends *at;
   PLATEN_INLINE double *first(int lane) const { return rows + static_cast<unsigned>(at[lane].first); }
   PLATEN_INLINE double *second(int lane) const { return rows + static_cast<unsigned>(at[lane].second); }
-  // The same, to be read once more: sixteen addresses do not fit the registers, and the compiler would keep
-  // them on the stack from their first use to their last.
+  // The same ends, to be read again: sixteen addresses do not fit into the registers, and the compiler would
+  // keep them on the stack from first to last use.
   PLATEN_INLINE Ends again() const {
     const PairBlocks::Ends *same = at;
 #if defined(__GNUC__)
@@ -35,8 +34,8 @@ PLATEN_INLINE Ends ends_of(const BondColumns &c, const BlockColumns &block, std:
   return {block.rows, c.ends + k};
 }
 
-// Ends of bonds [k, last), fewer than a SIMD vector. The lanes left over stand between the spare rows, which
-// become copies of the ends of the last bond.
+// Ends of bonds [k, last), fewer than a SIMD vector. The remaining lanes use the spare rows, which become
+// copies of the ends of the last bond.
 struct TailEnds {
   PairBlocks::Ends at[lanes];
 };
@@ -53,8 +52,8 @@ TailEnds tail_ends(const BondColumns &c, const BlockColumns &block, std::size_t 
   return ends;
 }
 
-// Copies of the last rows of a block, when they do not fill a SIMD vector: the last one repeated, between the
-// spare rows.
+// Copies of the last rows of a block if they do not fill a SIMD vector; the remaining lanes repeat the last
+// row, between the spare rows.
 struct Tail {
   int first[lanes], second[lanes];
   Vector3 reference[lanes], dashpot_force[lanes], dashpot_moment[lanes];
@@ -96,7 +95,7 @@ struct Tail {
   }
 };
 
-// From the first to the second ends.
+// Vectors from the first to the second ends, m.
 PLATEN_INLINE Triple<Simd> distances(const Ends &of) {
   const Ends ends = of.again();
   Row rows[lanes];
@@ -104,8 +103,8 @@ PLATEN_INLINE Triple<Simd> distances(const Ends &of) {
     rows[l] = load_row(ends.second(l)) - load_row(ends.first(l));
   return to_vectors(rows);
 }
-// The same, m, and how fast they part, m/s, from rows with motion. (Member by member: of a copied vector the
-// compiler would keep another in memory.)
+// The same, m, and their rates of change, m/s, from rows with motion. (Copied member by member: otherwise the
+// compiler would keep a second copy in memory.)
 PLATEN_INLINE void part(const Ends &of, Triple<Simd> &distance, Triple<Simd> &velocity) {
   const Ends ends = of.again();
   LongRow rows[lanes];
@@ -116,7 +115,7 @@ PLATEN_INLINE void part(const Ends &of, Triple<Simd> &distance, Triple<Simd> &ve
   velocity.x = v.w, velocity.y = v.x, velocity.z = v.y;
 }
 
-// Of one end of each bond: the row of a lane.
+// Row of a lane, for one end of each bond.
 struct FirstEnd {
   Ends ends;
   explicit FirstEnd(const Ends &of) : ends(of.again()) {}
@@ -200,7 +199,7 @@ PLATEN_INLINE void scatter(const Ends &of, const Triple<Simd> &force, const Trip
   }
 }
 
-// Bonds [from, to), of which some reach, behind all that were told before.
+// Adds bonds [from, to), some of which reach their strength; calls must be in ascending order.
 PLATEN_INLINE void add_reached(BlockFindings &found, std::size_t from, std::size_t to) {
   if (!found.reached) found.first_reached = from;
   found.reached = true, found.end_reached = to;
@@ -228,8 +227,8 @@ void gather(const BondColumns &c, const BlockColumns &block) {
     take(block.ghost_particle[g]);
 }
 
-// Writes the sums from row `first` on to `count` vectors. Four doubles at once run into the next vector,
-// which comes next; the last vector has a neighbour that may be another thread's.
+// Writes the sums from row `first` on to `count` vectors. A store of four doubles also writes into the next
+// vector, which is stored next; after the last vector there may be memory of another thread.
 template <class Rows>
 void scatter(const BlockColumns &block, int first, int count, int at, Vector3 *to) {
   const double *from = row_of<Rows>(block, first) + at;

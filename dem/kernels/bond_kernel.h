@@ -9,9 +9,9 @@
 
 namespace platen::dem::kernels {
 
-// What one row of a block holds, each part padded to four doubles: position and velocity, angular velocity
-// and orientation, then the sums of force and torque; what turns only with rotation, velocities only where
-// bonds ask how their particles move. Parts that are read together share a cache line, and so do the sums.
+// Contents of one row of a block, each part padded to four doubles: position and velocity, angular velocity
+// and orientation, then the sums of force and torque; rotational parts only with rotation, velocities only if
+// bonds need them. Parts that are read together share a cache line, and so do the sums.
 constexpr int row_stride(bool rotation, bool motion) {
   return (rotation ? 16 : 8) + (motion ? 8 : 0);
 }
@@ -23,10 +23,10 @@ struct RowLayout {
   static constexpr int stride = row_stride(rotation, motion);
   static constexpr int sums = rotation ? stride - 8 : motion ? 8 : 4;
 };
-// After the rows of a block's own particles and of its ghosts, for bonds that fill up a SIMD vector.
+// Rows after those of a block's own particles and ghosts, for the unused lanes of the last SIMD vector.
 constexpr int spare_rows = 2;
 
-// One block of particles and the ghosts that its bonds reach, and where their sums go.
+// One block of particles and the ghosts that its bonds reach, and the targets of their sums.
 struct BlockColumns {
   double *rows;              // own + ghosts + spare_rows rows, aligned to 64 bytes
   int first_row;             // particle row of the first
@@ -42,7 +42,7 @@ struct BondColumns {
   const PairBlocks::Ends *ends; // of the bond in its block, times row_stride
   const Vector3 *reference;
   const double *rest_length, *lever, *normal_stiffness, *bond_radius;
-  const double *strength_factor; // null: all bonds alike
+  const double *strength_factor; // null: all bonds have the same strength
   const Vector3 *position;       // columns of particles can be read one row beyond their end
   const Quaternion *orientation; // null: no rotation
   bool motion;                   // in the rows, RowLayout
@@ -54,18 +54,18 @@ struct BondColumns {
   Vector3 *dashpot_force, *dashpot_moment;
 };
 
-// What a pass over a block's bonds finds.
+// Results of a pass over a block's bonds.
 struct BlockFindings {
   bool reached = false; // a bond may be at or above its strength; or a cohesive bond has failed in this step
   double dashpot_power = 0; // W, sum of the dashpots' (force now + force before) times opening velocity
-  std::size_t first_reached = 0, end_reached = 0; // all that reached are among these rows
+  std::size_t first_reached = 0, end_reached = 0; // range of rows that contains all such bonds
 };
 
-// What a bond holds, row by row, from index 0. Any pointer may be null.
+// Values of each bond, row by row, from index 0. Any pointer may be null.
 struct BondRowValues {
   double *tension_ratio, *shear_ratio; // of strength
   double *energy;                      // J
-  double *force;                       // N, size of the force between the two
+  double *force;                       // N, magnitude of the force between the two
 };
 
 // Bonds [first, last) are those of one block.

@@ -7,7 +7,7 @@
 namespace platen::dem::kernels {
 namespace {
 
-// What moves and what bonds resist.
+// No rotation; rotation without moments of bonds; rotation with moments.
 enum class Turning { none, forces, moments };
 
 template <bool factors>
@@ -22,7 +22,7 @@ PLATEN_INLINE BondGeometry<Simd> geometry(const BondColumns &c, std::size_t k) {
   return g;
 }
 
-// `factors`: bonds have strengths of their own; `dashpots`: beside their springs.
+// `factors`: each bond has a strength factor; `dashpots`: in parallel with the springs.
 template <Turning turning_, bool factors_, bool dashpots_>
 struct LoopOf {
   static constexpr Turning turning = turning_;
@@ -109,8 +109,7 @@ BlockFindings compute_forces_with(const BondColumns &c, const BlockColumns &bloc
   return {};
 }
 
-// f(law) of the laws that these kernels are compiled for: all elastic ones that have a word, or the one from
-// outside.
+// f(law) for the laws of these kernels: all elastic laws with a keyword, or the outside law.
 template <class F>
 auto of_compiled(const BondLaw &law, const F &f) {
 #ifdef PLATEN_OUTSIDE_LAW
@@ -135,7 +134,7 @@ BlockFindings compute_forces_of(const BondColumns &c, const BlockColumns &block,
   return of_compiled(law, compute);
 }
 
-// From the particles' columns, for bonds of any block.
+// Reads the particles' columns, for bonds of any block.
 template <Turning turning, bool factors, class Law>
 PLATEN_INLINE BondResponse<Simd> respond(const BondColumns &c, const Law &law, std::size_t k) {
   const int *i = c.first + k, *j = c.second + k;

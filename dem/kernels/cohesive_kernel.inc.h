@@ -9,13 +9,13 @@
 namespace platen::dem::kernels {
 namespace {
 
-// Laws that tell of whole bonds by their pose alone.
+// Laws that need only the pose of intact bonds.
 template <class Law, class = void>
 constexpr bool is_quick_while_whole = false;
 template <class Law>
 constexpr bool is_quick_while_whole<Law, std::enable_if_t<Law::quick_while_whole>> = true;
 
-// Laws that tell of sound bonds by their motion without what damage needs.
+// Laws that compute undamaged bonds from their motion, without the data for damage.
 template <class Law, class = void>
 constexpr bool is_quick_while_sound = false;
 template <class Law>
@@ -26,7 +26,7 @@ PLATEN_INLINE Rotation<Simd> unturned() {
   return {Simd(1.0), none, none, none};
 }
 
-// Without rotation orientations are those of the reference.
+// Without rotation, orientations are those of the reference.
 template <class Rows>
 PLATEN_INLINE BondMotion<Simd> pose_of(const Triple<Simd> &distance, const Ends &ends) {
   if constexpr (Rows::rotation)
@@ -35,8 +35,8 @@ PLATEN_INLINE BondMotion<Simd> pose_of(const Triple<Simd> &distance, const Ends 
     return {distance, unturned(), unturned()};
 }
 
-// How the ends of each bond lie and move: from the rows, or from the particles' columns where rows do not
-// hold all of it.
+// Distance and relative velocity of the ends of each bond: from the rows, or from the particles' columns if
+// the rows have no velocities.
 template <class Rows>
 PLATEN_INLINE void part(const BondColumns &c, std::size_t k, const Ends &ends, Triple<Simd> &distance,
                         Triple<Simd> &velocity) {
@@ -57,8 +57,8 @@ PLATEN_INLINE EndTurn end_turn(const BondColumns &c, const int *particle, const 
   return turn;
 }
 
-// What the pair has done since its last state, at the velocities of the drift that led here. Without
-// rotation the orientations that a law needs are those of the reference.
+// Motion of the pair since its last state, at the velocities of the last drift. Without rotation, the
+// orientations that a law needs are those of the reference.
 template <class Rows, bool needs_orientations, bool from_the_middle = needs_orientations>
 PLATEN_INLINE CohesiveMotion<Simd> motion_of(const BondColumns &c, std::size_t k, const Ends &ends,
                                              const Simd &lever, double dt) {
@@ -71,7 +71,7 @@ PLATEN_INLINE CohesiveMotion<Simd> motion_of(const BondColumns &c, std::size_t k
     const EndTurn i = end_turn<Rows, needs_orientations>(c, c.first + k, FirstEnd(ends));
     const EndTurn j = end_turn<Rows, needs_orientations>(c, c.second + k, SecondEnd(ends));
     const Triple<Simd> &wi = i.spin, &wj = j.spin;
-    // Of the second's point, -(1 - a) d from its centre, against the first's, a d from its own.
+    // Velocity of the second's point, at -(1 - a) d from its centre, minus the first's, at a d.
     const Triple<Simd> turning = scale(lever, wi) + scale(Simd(1.0 - lever), wj);
     if constexpr (from_the_middle)
       v = v + cross(m.distance - scale(Simd(0.5), m.travelled), turning);
@@ -106,13 +106,13 @@ PLATEN_INLINE void scatter_response(const Ends &ends, const CohesiveGeometry<Sim
                                     const Triple<Simd> &distance, const CohesiveResponse<Simd> &response) {
   if constexpr (Law::needs_orientations) {
     scatter<Rows>(ends, response.force, response.torque_i, response.torque_j);
-  } else { // only what is across the distance has a moment: d x F = d x F_s
+  } else { // only the shear force has a moment: d x F = d x F_s
     const Triple<Simd> moment = cross(distance, response.force);
     scatter<Rows>(ends, response.force, scale(g.lever, moment), scale(Simd(1.0 - g.lever), moment));
   }
 }
 
-// What a pair does by all it remembers and has done.
+// Response of bonds from their full history and motion.
 template <class Rows, bool factors, class Law>
 PLATEN_INLINE Simd add_lanes_by_motion(const CohesiveColumns &c, const Law &law, std::size_t k,
                                        const Ends &ends, double dt) {
@@ -126,14 +126,14 @@ PLATEN_INLINE Simd add_lanes_by_motion(const CohesiveColumns &c, const Law &law,
   return response.failed_now;
 }
 
-// The same as a function of its own, so that the loop over what is whole keeps its registers.
+// The same as a separate function, so that the loop over intact bonds keeps its registers.
 template <class Rows, bool factors, class Law>
 [[gnu::noinline]] Simd add_broken_lanes(const CohesiveColumns &c, const Law &law, std::size_t k,
                                         const Ends &ends, double dt) {
   return add_lanes_by_motion<Rows, factors>(c, law, k, ends, dt);
 }
 
-// A SIMD vector that is broken as a whole.
+// A SIMD vector in which all bonds are broken.
 template <class Rows, bool factors, class Law>
 [[gnu::noinline]] void add_lanes_of_broken(const CohesiveColumns &c, const Law &law, std::size_t k,
                                            const Ends &ends, double dt) {
@@ -148,7 +148,7 @@ template <class Rows, bool factors, class Law>
   scatter<Rows>(ends, response.force, response.torque_i, response.torque_j);
 }
 
-// Adds the dashpots to what the springs of a SIMD vector do that holds.
+// Adds the dashpots to the spring response of a SIMD vector of intact bonds.
 template <class Rows, bool dashpots>
 PLATEN_INLINE void add_dashpots(const BondColumns &c, std::size_t k, const Ends &ends,
                                 CohesiveResponse<Simd> &response, PowerSum &power) {
@@ -162,7 +162,7 @@ PLATEN_INLINE void add_dashpots(const BondColumns &c, std::size_t k, const Ends 
   }
 }
 
-// The SIMD vector with those that are broken or may break, by all it remembers.
+// A SIMD vector with bonds that are damaged or broken or may become so, from their full history.
 template <class Rows, bool factors, bool dashpots, class Law>
 PLATEN_INLINE Simd add_any_lanes(const CohesiveColumns &c, const Law &law, std::size_t k, const Ends &ends,
                                  double dt, PowerSum &power) {
@@ -177,7 +177,7 @@ PLATEN_INLINE Simd add_lanes(const CohesiveColumns &c, const Law &law, std::size
   typename Law::template State<Simd> s;
   for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
   if constexpr (keeps_failed_last<Law>)
-    if (all_positive(law.failed(s))) { // and has no dashpots
+    if (all_positive(law.failed(s))) { // failed bonds have no dashpots
       add_lanes_of_broken<Rows, factors>(c, law, k, ends, dt);
       return Simd(0.0);
     }
@@ -206,7 +206,7 @@ PLATEN_INLINE Simd add_lanes(const CohesiveColumns &c, const Law &law, std::size
   return Simd(0.0);
 }
 
-// Asks for a column of rows to come.
+// Prefetches the coming rows of a column.
 template <class Value>
 PLATEN_INLINE void foresee(const Value *row) {
   constexpr std::size_t packs_ahead = 6, bytes = lanes * sizeof(Value), line = 64;
@@ -214,8 +214,8 @@ PLATEN_INLINE void foresee(const Value *row) {
   for (std::size_t byte = 0; byte < bytes; byte += line)
     __builtin_prefetch(to_come + byte, 0, 2);
 }
-// What follows in all columns of laws that change most of them in each step: there are more of them than a
-// core foresees by itself. (Of those that read less it does, and to ask costs.)
+// Prefetches all columns of laws that change most of them in each step: a core by itself does not prefetch so
+// many. (For laws that read fewer columns it does, and explicit prefetches only cost time.)
 template <class Law>
 PLATEN_INLINE void foresee_packs(const CohesiveColumns &c, std::size_t k) {
   if constexpr (is_quick_while_sound<Law>) {
@@ -274,7 +274,7 @@ BlockFindings compute_beside(const CohesiveColumns &c, const BlockColumns &block
                                     : compute_with<rotation, false>(c, block, law, dt, first, last);
 }
 
-// f(law), or f of what stands for it where spheres turn and its bonds bend.
+// f(law), or f of the bending variant of the law if spheres rotate and its bonds bend.
 template <class Law, class F>
 auto as_it_bends(const Law &law, bool turning, const F &f) {
   if constexpr (std::is_same_v<Law, ElastoDamagePlastic>)
@@ -293,7 +293,7 @@ BlockFindings compute_forces_of(const CohesiveColumns &c, const BlockColumns &bl
   });
 }
 
-// From the particles' columns.
+// Reads the particles' columns.
 template <bool rotation, class Law>
 PLATEN_INLINE void measure_lanes(const CohesiveColumns &c, const Law &law, const CohesiveRowValues &to,
                                  std::size_t k, std::size_t at, std::size_t count) {

@@ -1,4 +1,4 @@
-// What cohesive bonds remember, between their columns and SIMD vectors.
+// Transfer of the history of cohesive bonds between columns and SIMD vectors.
 #pragma once
 
 #include <type_traits>
@@ -9,8 +9,7 @@
 namespace platen::dem::kernels {
 namespace {
 
-// What the last cohesive bonds of a block remember, the very last repeated where they do not fill a SIMD
-// vector.
+// History of the last cohesive bonds of a block; the last bond is repeated if they do not fill a SIMD vector.
 struct MemoryTail {
   double scalar[most_scalars][lanes];
   Vector3 vector[most_vectors][lanes + 1];
@@ -47,7 +46,7 @@ PLATEN_INLINE void store(double *to, const Simd &a) {
     to[l] = a.v[l];
 }
 
-// f(place, member) for every member of a state and where its column keeps that of row k.
+// Calls f(address, member) for every member of a state, with the address of row k in its column.
 template <class State, class F>
 PLATEN_INLINE void for_each_memory(const MemoryColumns &columns, std::size_t k, State &state, const F &f) {
   std::size_t scalars = 0, vectors = 0;
@@ -61,7 +60,7 @@ PLATEN_INLINE void for_each_memory(const MemoryColumns &columns, std::size_t k, 
       state);
 }
 
-// The first `count` members of a state, scalars, to their columns.
+// Writes the first `count` members of a state, all scalars, to their columns.
 template <std::size_t count, class State>
 PLATEN_INLINE void keep_scalars(const MemoryColumns &columns, std::size_t k, State &state) {
   std::size_t at = 0;
@@ -74,7 +73,7 @@ PLATEN_INLINE void keep_scalars(const MemoryColumns &columns, std::size_t k, Sta
       state);
 }
 
-// Members of a state that the law changes of sound bonds, to their columns.
+// Writes the members of a state that the law changes for undamaged bonds to their columns.
 template <class Law, class State>
 PLATEN_INLINE void keep_sound(const MemoryColumns &columns, std::size_t k, State &state, bool yielded) {
   std::size_t scalars = 0, vectors = 0, member_at = 0;

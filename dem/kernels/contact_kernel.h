@@ -1,6 +1,6 @@
-// Contacts between grains in SIMD vectors: which rows have something to do in a step, for most pairs that are
-// near do not touch, and what those do. One source, compiled once per instruction set (contact_kernel.inc.h),
-// to the same last bit.
+// Contacts between grains in SIMD vectors: selection of the active rows of a step, because most near pairs do
+// not touch, and their forces. One source, compiled once per instruction set (contact_kernel.inc.h), with
+// results equal to the last bit.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ struct ContactColumns {
   int *touching;
   double *overlap; // m
   Vector3 *force;  // N, on first
-  // With friction: unit normal and tangential force (N) as the last step left them, N/m.
+  // With friction: unit normal and tangential force (N) of the last step; stiffness in N/m.
   Vector3 *normal, *spring;
   double *tangential_stiffness;
   int *sliding;
@@ -26,12 +26,12 @@ struct ContactColumns {
   Vector3 *rolling;
   double *rolling_stiffness;
   Vector3 *dashpot; // N, with dashpots
-  // Of particles; the last with rotation.
+  // Of particles; angular velocity only with rotation.
   const Vector3 *position, *velocity, *angular_velocity;
   const double *radius, *mass;
 };
 
-// Rows of a block of particles, and where their forces go: to the block's particles and to its ghosts.
+// Rows of a block of particles, and the targets of their forces: the block's particles and its ghosts.
 struct ContactBlock {
   std::size_t first_pair, end_pair; // rows
   const int *added;                 // rows beyond these, in the order of their pairs
@@ -45,30 +45,30 @@ struct ContactBlock {
 struct ContactStep {
   double dt = 0;                             // s
   double friction = 0, rolling_friction = 0; // 1
-  double tangential_ratio = 0;               // k_t / k_n, of laws whose stiffness changes
+  double tangential_ratio = 0;               // k_t / k_n, for laws with variable stiffness
   double dashpot = 0;                        // fraction of critical
 };
 
-// What a loop has; each combination is a loop of its own.
+// Effects of a loop; each combination is a separate loop.
 struct ContactEffects {
   NormalContact normal = NormalContact::linear;
   TangentialContact tangential = TangentialContact::coulomb;
   bool dashpots = false, rotation = true;
-  bool ledger = true; // sums of what is lost
+  bool ledger = true; // sums of lost energies
 };
 
 struct ContactLoss {
   double friction = 0, damping = 0; // J
 };
 
-// Of one block: `rows` has room for all its rows, `losses` for three times as many.
+// Computes one block: `rows` has space for all its rows, `losses` for three times as many.
 using ContactLoop = ContactLoss (*)(const ContactColumns &, const ContactBlock &, const ContactStep &,
                                     int *rows, double *losses);
 
 struct ContactKernels {
-  // Of rows [first, last): those that are closer than their rest distance, or were touching, ascending.
-  // Writes them to `rows`, which has room for all; returns their number. What is not a number counts as
-  // close, so that it shows in the forces.
+  // Finds the rows of [first, last) that are closer than their rest distance or were touching, ascending.
+  // Writes them to `rows`, which has space for all; returns their number. NaN counts as close, so that it
+  // appears in the forces.
   std::size_t (*rows_at_work)(const ContactColumns &, std::size_t first, std::size_t last, int *rows);
   // Throws std::invalid_argument for rolling resistance without rotation.
   ContactLoop (*loop)(const ContactEffects &);

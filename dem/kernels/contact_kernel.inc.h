@@ -1,5 +1,5 @@
 // Body of the contact kernels; the including file sets PLATEN_LANES and PLATEN_KERNELS. Compiled without
-// contraction: every instruction set gives the same bits.
+// contraction, so that every instruction set gives the same bits.
 #include <stdexcept>
 
 #include "dem/kernels/contact_kernel.h"
@@ -9,7 +9,7 @@
 namespace platen::dem::kernels {
 namespace {
 
-// Which of the next rows touched, a bit each.
+// Bit mask of the next rows that touched.
 PLATEN_INLINE unsigned set_lanes(const int *from) {
 #if PLATEN_LANES == 8
   const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i *>(from));
@@ -45,7 +45,7 @@ std::size_t rows_at_work(const ContactColumns &c, std::size_t first, std::size_t
   return found;
 }
 
-// Those of a block, in the order of their pairs.
+// Active rows of a block, in the order of their pairs.
 std::size_t rows_at_work(const ContactColumns &c, const ContactBlock &b, int *rows) {
   const auto comes_before = [&](int k, int l) {
     return c.first[k] != c.first[l] ? c.first[k] < c.first[l] : c.second[k] < c.second[l];
@@ -62,8 +62,8 @@ std::size_t rows_at_work(const ContactColumns &c, const ContactBlock &b, int *ro
   return found;
 }
 
-// What a loop has. `ledger`: sums of what is lost, which cost a loop without them up to 15 % if they are but
-// asked for (bench/results/effects.md).
+// Effects of a loop. `ledger`: sums of lost energies; testing for them at run time costs a loop without them
+// up to 15 % (bench/results/effects.md).
 template <class NormalLaw, TangentialContact tangential, bool with_dashpots, bool with_rotation,
           bool with_ledger>
 struct With {
@@ -77,35 +77,34 @@ PLATEN_INLINE Simd reduced_of(const Simd &a, const Simd &b) {
   return a * b / (a + b);
 }
 
-// A SIMD vector of rows that touch. Lanes from `count` on repeat the last of them and are not written.
+// A SIMD vector of rows that touch. Lanes from `count` on repeat the last row and are not written.
 struct Touch {
   int row[lanes], i[lanes], j[lanes], count;
   Triple<Simd> n, ri, rj, slip_velocity; // m, m/s
-  Simd pressing, kn, spun;               // N, N/m, rad: of both about n in this step
+  Simd pressing, kn, spun;               // N, N/m, rad: mean turn about n in this step
   Triple<Simd> force, drag;              // N, on the first; drag: the dashpots' part
 };
 
-// Of each lane, J: rolling, of a spring that has become softer, sliding; and the dashpots'.
+// J, of each lane: rolling, softening of a spring, sliding, dashpots.
 struct Losses {
   Simd rolling = Simd(0.0), softened = Simd(0.0), sliding = Simd(0.0), damping = Simd(0.0);
 };
 
-// A vector in the plane of contact as the last step left it, turned with the plane and with the pair about
-// its normal.
+// A vector in the contact plane of the last step, rotated with the plane and with the pair about its normal.
 PLATEN_INLINE Triple<Simd> turned(const ContactColumns &c, const Vector3 *column, const Touch &t) {
   return spin_in_plane(carried_with_plane<OfLanes>(gather(column, t.row), gather(c.normal, t.row), t.n), t.n,
                        t.spun);
 }
 
-// The law of friction turns a rolling spring k_t R*^2 with the limit rolling_friction R* N. Before the
-// tangential force, which renews the normal.
+// Rolling spring k_t R*^2 with the friction limit rolling_friction R* N. To call before the tangential force,
+// which overwrites the normal.
 template <class Effects>
 PLATEN_INLINE Triple<Simd> rolling_moment(const ContactColumns &c, const ContactStep &s, const Touch &t,
                                           Losses &lost) {
   const Simd effective = reduced_of(gather(c.radius, t.i), gather(c.radius, t.j));
   const Simd stiffness = gather(c.tangential_stiffness, t.row) * effective * effective;
   scatter(c.rolling_stiffness, t.row, t.count, stiffness);
-  const LaneMask stiff = OfLanes::above(stiffness, Simd(0.0)); // not of Hertz' contact at its first step
+  const LaneMask stiff = OfLanes::above(stiffness, Simd(0.0)); // false for a Hertz contact at its first step
   const Triple<Simd> w = gather_difference(c.angular_velocity, t.j, t.i);
   const Triple<Simd> stretch = scale(Simd(s.dt), w - scale(dot(w, t.n), t.n));
   const Simd limit = Simd(s.rolling_friction) * effective, zero = Simd(0.0);
@@ -124,14 +123,14 @@ PLATEN_INLINE void tangential_force(const ContactColumns &c, const ContactStep &
   Simd kt = gather(c.tangential_stiffness, t.row);
   Triple<Simd> spring = turned(c, c.spring, t);
   if constexpr (!Effects::Law::constant_stiffness) {
-    // A softer spring keeps its stretch, a stiffer one its force: both only lose energy, and the ledger gets
-    // it, with what the mean force over the step has done by the part that is gone.
+    // A softer spring keeps its stretch, a stiffer one its force: both only lose energy. The ledger gets this
+    // energy, and the work of the lost part of the mean force over the step.
     const Simd now = Simd(s.tangential_ratio) * t.kn, square = dot(spring, spring);
     const Triple<Simd> seen = spring;
     spring = choose<OfLanes>(OfLanes::above(kt, now), scale(Simd(now / kt), spring), spring);
     if constexpr (Effects::ledger) {
       const LaneMask held = OfLanes::above(kt, zero) & OfLanes::above(square, zero);
-      // At an overlap of exactly 0 nothing is stiff, and the spring has lost all.
+      // At an overlap of exactly 0 the stiffness is 0, and the spring has lost all its energy.
       const Simd left = OfLanes::choose(OfLanes::above(now, zero), dot(spring, spring) / now, zero);
       const Simd loss =
           Simd(0.5) * square / kt - Simd(0.5) * left + half_step * dot(seen - spring, t.slip_velocity);
@@ -148,8 +147,7 @@ PLATEN_INLINE void tangential_force(const ContactColumns &c, const ContactStep &
   scatter(c.normal, t.row, t.count, t.n);
   t.force = t.force + f.spring;
   if constexpr (Effects::dashpots) {
-    // Spring and dashpot together stay below the Coulomb limit too; a contact that is not pressed drags
-    // nothing.
+    // Spring and dashpot together also stay below the Coulomb limit; without normal force there is no drag.
     const Simd damping =
         Simd(2 * s.dashpot) * OfLanes::root(kt * reduced_of(gather(c.mass, t.i), gather(c.mass, t.j)));
     Triple<Simd> tangential = f.spring + scale(damping, t.slip_velocity);
@@ -162,7 +160,7 @@ PLATEN_INLINE void tangential_force(const ContactColumns &c, const ContactStep &
   }
 }
 
-// Where the SIMD vector is and how it moves.
+// Geometry and normal force of a SIMD vector; returns the relative velocity (m/s).
 template <class Effects>
 PLATEN_INLINE Triple<Simd> approach(const ContactColumns &c, const ContactStep &s, Touch &t) {
   const Triple<Simd> d = gather_difference(c.position, t.j, t.i);
@@ -231,7 +229,7 @@ PLATEN_INLINE Losses add_lanes(const ContactColumns &c, const ContactBlock &b, c
   if constexpr (Effects::rolling) moment = rolling_moment<Effects>(c, s, t, lost);
   if constexpr (Effects::friction) tangential_force<Effects>(c, s, t, lost);
   if constexpr (Effects::dashpots) {
-    // By the mean of the forces at the two ends of the drift, as the leapfrog sees it.
+    // From the mean of the forces at the two ends of the drift (leapfrog).
     if constexpr (Effects::ledger)
       lost.damping = Simd(0.5 * s.dt) * dot(t.drag + gather(c.dashpot, t.row), v);
     scatter(c.dashpot, t.row, t.count, t.drag);
@@ -240,7 +238,7 @@ PLATEN_INLINE Losses add_lanes(const ContactColumns &c, const ContactBlock &b, c
   return lost;
 }
 
-// A row that touched and does not any more. Returns what its springs held, J.
+// A row that touched and no longer does. Writes the energy of its springs (J) to `lost`.
 template <class Effects>
 PLATEN_INLINE void release(const ContactColumns &c, int k, double *lost) {
   const auto half_over = [](const Vector3 &a, double stiffness) {
@@ -267,7 +265,7 @@ ContactLoss compute(const ContactColumns &c, const ContactBlock &b, const Contac
   const std::size_t count = rows_at_work(c, b, rows);
   ContactLoss lost;
   Touch t;
-  std::size_t at[lanes]; // among the rows at work
+  std::size_t at[lanes]; // index among the active rows
   t.count = 0;
   const auto finish = [&] {
     for (int l = t.count; l < lanes; ++l)
@@ -298,7 +296,7 @@ ContactLoss compute(const ContactColumns &c, const ContactBlock &b, const Contac
   return lost;
 }
 
-// Choices are made one after the other, in the order of With.
+// Chooses the effects one after the other, in the order of With.
 template <class Law, TangentialContact tangential, bool... chosen>
 ContactLoop choose_loop(const bool *effects) {
   constexpr std::size_t made = sizeof...(chosen);

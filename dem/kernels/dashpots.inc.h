@@ -6,7 +6,7 @@
 namespace platen::dem::kernels {
 namespace {
 
-// One by one in row order, so that rows that have no dashpot any more may be dropped without a change.
+// Sums in row order, so that rows without a dashpot can be dropped without a change.
 struct PowerSum {
   double sum = 0; // W
   PLATEN_INLINE void add(const Simd &power) {
@@ -15,7 +15,7 @@ struct PowerSum {
   }
 };
 
-// On the first particles, N and N m; torques with rotation alone.
+// Force on the first particles, N; torques on both, N m, only with rotation.
 struct DashpotResponse {
   Triple<Simd> force, torque_i, torque_j;
 };
@@ -32,8 +32,8 @@ PLATEN_INLINE void add_dashpot_moments(const BondColumns &c, std::size_t k, cons
   store(c.dashpot_moment + k, moment);
 }
 
-// Dashpots beside the springs of bonds at `distance` whose ends part by `v`, at the contact point lever d
-// from the first centre (docs/theory.md). `acts`: 1, or 0 of bonds that have just failed.
+// Dashpots in parallel with the springs of bonds with distance `d` and end velocity `v`, at the contact point
+// lever d from the first centre (docs/theory.md). `acts`: 1, or 0 for bonds that have just failed.
 template <class Rows>
 PLATEN_INLINE DashpotResponse dashpots_of(const BondColumns &c, std::size_t k, const Ends &ends,
                                           const Triple<Simd> &d, Triple<Simd> v, const Simd &acts,
@@ -61,8 +61,7 @@ PLATEN_INLINE DashpotResponse dashpots_of(const BondColumns &c, std::size_t k, c
   return r;
 }
 
-// The same by themselves, of SIMD vectors of which some may have failed in this step: `failed` is positive
-// there.
+// Dashpots alone, for SIMD vectors in which bonds may have failed in this step: `failed` is positive there.
 template <class Rows>
 [[gnu::noinline]] void add_dashpots_apart(const BondColumns &c, std::size_t k, const Ends &ends,
                                           const Simd &failed, PowerSum &power) {

@@ -1,5 +1,4 @@
-// What contacts in SIMD vectors have in common: rows by their numbers, and springs that turn with their
-// planes.
+// Common parts of contacts in SIMD vectors: rows by their numbers, and springs that rotate with their planes.
 #pragma once
 
 #include <cmath>
@@ -19,14 +18,14 @@ PLATEN_INLINE Simd gather(const double *column, const int *at) {
     a.v[l] = column[at[l]];
   return a;
 }
-// Whether the numbers that stand beside each other from a place on are not zero.
+// Whether each of the consecutive numbers from an address on is not zero.
 PLATEN_INLINE LaneMask set_lanes_of(const int *from) {
   typedef int Numbers __attribute__((vector_size(4 * PLATEN_LANES)));
   Numbers numbers;
   std::memcpy(&numbers, from, sizeof numbers);
   return {__builtin_convertvector(numbers, LaneMask::Bits) != 0};
 }
-// Lanes [0, count) to the rows `at`.
+// Writes lanes [0, count) to the rows `at`.
 PLATEN_INLINE void scatter(double *column, const int *at, int count, const Simd &a) {
   for (int l = 0; l < count; ++l)
     column[at[l]] = a.v[l];
@@ -40,7 +39,7 @@ PLATEN_INLINE void scatter(Vector3 *column, const int *at, int count, const Trip
     column[at[l]] = Vector3{a.x.v[l], a.y.v[l], a.z.v[l]};
 }
 
-// About the unit normal by any angle (rad), exact.
+// Rotates about the unit normal by any angle (rad), exact.
 PLATEN_INLINE Triple<Simd> spin_in_plane(const Triple<Simd> &vector, const Triple<Simd> &normal,
                                          const Simd &angle) {
   const Triple<Simd> little = spun_a_little<OfLanes>(vector, normal, angle);

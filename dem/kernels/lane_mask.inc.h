@@ -1,4 +1,4 @@
-// Truth lane by lane, for kernels whose lanes go different ways; beside SIMD vector.inc.h.
+// Masks per lane, for kernels whose lanes take different branches; an addition to simd.inc.h.
 #pragma once
 
 #include "dem/kernels/simd.inc.h"
@@ -6,7 +6,7 @@
 namespace platen::dem::kernels {
 namespace {
 
-// All bits of a lane set, or none.
+// All bits of a lane are set, or none.
 struct LaneMask {
   typedef long long Bits __attribute__((vector_size(8 * PLATEN_LANES)));
   Bits v{};
@@ -33,7 +33,7 @@ PLATEN_INLINE unsigned bits_of(const LaneMask &a) {
 #endif
 }
 
-// What a text for one number and for SIMD vectors asks of its type (dem/laws/lanes.h).
+// Operations that code for one number and for SIMD vectors needs of its type (dem/laws/lanes.h).
 struct OfLanes {
   PLATEN_INLINE static LaneMask above(const Simd &a, const Simd &b) { return {a.v > b.v}; }
   PLATEN_INLINE static LaneMask at_least(const Simd &a, const Simd &b) { return {a.v >= b.v}; }

@@ -1,5 +1,5 @@
 // Block kernels of the motion: the two half kicks, damping, drift and their energy sums in one pass over the
-// particles. One source, compiled once per instruction set (motion_kernel.inc.h), to the same last bit.
+// particles. One source, compiled once per instruction set (motion_kernel.inc.h), with bitwise equal results.
 #pragma once
 
 #include <cstddef>
@@ -15,14 +15,14 @@ struct MotionColumns {
   Quaternion *orientation;
   Vector3 *angular_velocity, *torque;
   const double *inertia;
-  // Only with a dissipative scheme; the second with rotation too.
+  // Only with a dissipative scheme; the second only with rotation too.
   Vector3 *excess_velocity, *excess_spin;
 };
 
 enum class LocalDamping { none, component, vector };
 
-// Coefficients of a pass. Those that may be nothing are branches that all rows take alike, not loops of their
-// own (bench/results/effects.md has what they cost).
+// Coefficients of a pass. Optional effects are branches that all rows take alike, not separate loops
+// (bench/results/effects.md lists their cost).
 struct MotionStep {
   double finished = 0; // s, of the step that the second half kick ends
   double next = 0;     // s, of the step that the first half kick and the drift begin
@@ -34,7 +34,7 @@ struct MotionStep {
   double excess = 0;        // phi - 1 of a dissipative scheme
 };
 
-// What a pass does.
+// Parts of a step that a pass does.
 enum class Halves { end, begin, end_and_begin };
 
 struct MotionSums {
@@ -46,13 +46,13 @@ struct MotionSums {
   double fastest_square = 0; // m^2/s^2, the largest of them
 };
 
-// Effects that have columns; each combination is a loop of its own.
+// Effects with columns of their own; each combination is a separate loop.
 struct MotionEffects {
   bool rotation = false;
   bool dissipative = false; // drifts by an excess over the half-step velocity
 };
 
-// By value: what is stored to columns cannot change a step, so that it stays in registers.
+// Passed by value: stores to columns cannot change a step, so that it stays in registers.
 using MotionKernel = MotionSums (*)(MotionColumns, MotionStep, std::size_t first, std::size_t last);
 MotionKernel motion_kernel_baseline(Halves, const MotionEffects &);
 MotionKernel motion_kernel_avx2(Halves, const MotionEffects &);

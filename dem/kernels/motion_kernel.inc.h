@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t slots = 8;
 
-// One row at a time, for those that do not fill a SIMD vector.
+// Access to one row, for rows that do not fill a SIMD vector.
 inline Triple<double> load_one(const Vector3 *from) {
   return {from->x, from->y, from->z};
 }
@@ -45,7 +45,7 @@ inline Real damped(const Real &force, const Real &velocity, double alpha) {
   return force - with_sign(Real(alpha * magnitude(force)), velocity);
 }
 
-// Of the whole load, along the velocity; none where nothing moves.
+// Local damping of the whole load, along the velocity; none at zero velocity.
 template <class Real>
 inline Triple<Real> damped_along(const Triple<Real> &load, const Triple<Real> &v, double alpha) {
   const Real speed = root(dot(v, v)), zero = speed * 0.0;
@@ -62,7 +62,7 @@ inline Triple<Real> damped(const Triple<Real> &load, const Triple<Real> &v, cons
   return {damped(load.x, v.x, alpha), damped(load.y, v.y, alpha), damped(load.z, v.z, alpha)};
 }
 
-// Turns by dt w; Cayley's form needs no sine and is exact to (w dt)^3 / 12, the order of the scheme.
+// Rotates q by dt w; Cayley's form needs no sine and is exact to (w dt)^3 / 12, the order of the scheme.
 template <class Real>
 inline Rotation<Real> turned_by(const Rotation<Real> &q, const Triple<Real> &w, double dt) {
   const Triple<Real> h = scale(Real(0.5 * dt), w);
@@ -72,8 +72,8 @@ inline Rotation<Real> turned_by(const Rotation<Real> &q, const Triple<Real> &w, 
   return {s * p.w, s * p.x, s * p.y, s * p.z};
 }
 
-// Damping and second half kick of one kind of velocity, linear or angular, by one kind of load. `kept`: where
-// stands what the drift had above the half-step velocity, only with a dissipative scheme.
+// Damping and second half kick of one kind of velocity, linear or angular, by one kind of load. `kept`:
+// address of drift velocity minus half-step velocity, only with a dissipative scheme.
 template <class Real, bool dissipative, Halves halves>
 inline void end_kick(Triple<Real> &v, Triple<Real> &load, const Real &mass, const Real &mobility,
                      const MotionStep &step, PartialSums<Real> &sums, const Vector3 *kept) {
@@ -84,13 +84,13 @@ inline void end_kick(Triple<Real> &v, Triple<Real> &load, const Real &mass, cons
   if constexpr (dissipative) v = v - excess;
   v = v + scale(Real(0.5 * step.finished * mobility), load);
   if (!step.energy_sums) return;
-  // The work lost in the step, which the leapfrog sees at the full-step velocity.
+  // The work lost in the step, at the full-step velocity, as in the leapfrog scheme.
   Triple<Real> mean = v;
   if constexpr (dissipative) {
-    // The mean of the loads at both ends of the drift, over the excess of its path.
+    // Work of the mean of the loads at both ends of the drift over its excess displacement.
     const Real before = (1 / step.excess) * mass * dot(excess, excess);
     sums.damping_work = sums.damping_work + 0.5 * (before + step.finished * dot(load, excess));
-    // At the mean of the drifts on either side, which the excess lets differ from the full-step velocity.
+    // The mean of the drifts on both sides, which the excess makes different from the full-step velocity.
     const Triple<Real> next = scale(Real(step.excess * step.finished * mobility), load);
     mean = v + scale(Real(0.5), excess + next);
   }
@@ -99,7 +99,7 @@ inline void end_kick(Triple<Real> &v, Triple<Real> &load, const Real &mass, cons
   if constexpr (halves == Halves::end) sums.kinetic_energy = sums.kinetic_energy + 0.5 * mass * dot(v, v);
 }
 
-// First half kick; with a dissipative scheme the drift that follows goes further than the half-step velocity.
+// First half kick; with a dissipative scheme the drift that follows is faster than the half-step velocity.
 template <class Real, bool dissipative>
 inline void begin_kick(Triple<Real> &v, const Triple<Real> &load, const Real &mobility,
                        const MotionStep &step, [[maybe_unused]] Vector3 *kept) {

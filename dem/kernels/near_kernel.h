@@ -1,14 +1,13 @@
-// Kernel of the search for partners of soft spheres (dem/packing/soft_partners.h): which balls of some cells
-// are near one of them. One source, compiled once per instruction set (near_kernel.inc.h), all with the same
-// result.
+// Kernel of the search for partners of soft spheres (dem/packing/soft_partners.h): finds the balls of some
+// cells that are near a given ball. One source, compiled once per instruction set (near_kernel.inc.h), all
+// with the same result.
 #pragma once
 
 #include <cstddef>
 
 namespace platen::dem::kernels {
 
-// Balls in the order of their cells. All columns have `near_spare` further values, which are read and not
-// used.
+// Balls in the order of their cells. All columns have `near_spare` more values, which are read but not used.
 constexpr std::size_t near_spare = 8;
 struct NearColumns {
   const float *x, *y, *z, *reach;
@@ -20,8 +19,8 @@ struct NearBall {
   int ball;
 };
 
-// Writes the number of every ball of members [first, last) but `own` whose distance is below the sum of both
-// reaches to `found`, in their order. Returns how many there are; `near_spare` places after them may be
+// Writes to `found`, in order, the number of every ball of members [first, last) except `own` whose distance
+// is below the sum of both reaches. Returns how many there are; `near_spare` places after them may be
 // overwritten.
 std::size_t find_near_baseline(const NearColumns &, const NearBall &own, int first, int last, int *found);
 std::size_t find_near_avx2(const NearColumns &, const NearBall &own, int first, int last, int *found);

@@ -1,6 +1,6 @@
 // Body of the search kernel; the including file sets the name PLATEN_FIND_NEAR. Runs along a row of cells are
-// short: with vectors most are one vector of eight. Compiled without contraction: every instruction set finds
-// the same. Everything else stays in an unnamed namespace (SIMD vector.inc.h says why).
+// short: most fit into one vector of eight. Compiled without contraction, so that every instruction set finds
+// the same. Everything else is in an unnamed namespace (simd.inc.h gives the reason).
 #include "dem/kernels/near_kernel.h"
 
 #if defined(__AVX2__)
@@ -29,7 +29,7 @@ inline unsigned near_bits(const NearColumns &c, const NearBall &own, int m, __m2
   return static_cast<unsigned>(_mm256_movemask_ps(_mm256_andnot_ps(_mm256_castsi256_ps(self), near)));
 }
 
-// The numbers whose bits are set, one after another; spare ones after them.
+// Writes the numbers whose bits are set, one after another; spare ones may follow.
 inline void write_set(unsigned bits, __m256i ball, int *to) {
 #if defined(__AVX512VL__)
   _mm256_storeu_si256(reinterpret_cast<__m256i *>(to),
@@ -56,7 +56,7 @@ std::size_t PLATEN_FIND_NEAR(const NearColumns &c, const NearBall &own, int firs
     count += static_cast<std::size_t>(__builtin_popcount(bits));
   }
 #else
-  for (int m = first; m < last; ++m) { // no branch: one in eight is near enough
+  for (int m = first; m < last; ++m) { // no branch, because one in eight is near
     const float x = c.x[m] - own.x, y = c.y[m] - own.y, z = c.z[m] - own.z, reach = c.reach[m] + own.reach;
     found[count] = c.ball[m];
     count += (x * x + y * y + z * z < reach * reach) & (c.ball[m] != own.ball) ? 1 : 0;

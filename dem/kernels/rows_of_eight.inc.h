@@ -1,5 +1,5 @@
-// Rows of four doubles for SIMD vectors of eight lanes: two rows stand in one vector, so that transpositions
-// and sums take half the instructions of rows one by one (SIMD vector.inc.h).
+// Rows of four doubles for SIMD vectors of eight lanes: one vector holds two rows, so that transpositions and
+// sums need half the instructions of single rows (simd.inc.h).
 #pragma once
 
 namespace platen::dem::kernels {
@@ -25,8 +25,8 @@ PLATEN_INLINE void store_native(double *to, const Native &a) {
 PLATEN_INLINE Native join(const Row &low, const Row &high) {
   return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
 }
-// Of both vectors each, in turn: the first and third two, or the second and fourth; the halves. All of them
-// are one instruction without a table of places.
+// Select from both vectors: the first and third pair, or the second and fourth; the lower or upper half; the
+// even or odd lanes in turn. Each is one instruction without a table of indices.
 PLATEN_INLINE Native odd_twos(const Native &a, const Native &b) {
   return __builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13);
 }
@@ -46,8 +46,7 @@ PLATEN_INLINE Native odd(const Native &a, const Native &b) {
   return __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
 }
 
-// Rows of four doubles become columns of eight. Two rows stand in one vector: 0 beside 2, 1 beside 3, 4
-// beside 6, 5 beside 7.
+// Rows of four doubles become columns of eight. A vector holds two rows: 0, 2; 1, 3; 4, 6; 5, 7.
 PLATEN_INLINE Rotation<Simd> to_columns(const Native &r02, const Native &r13, const Native &r46,
                                         const Native &r57) {
   const Native a = even(r02, r13), b = odd(r02, r13), c = even(r46, r57), d = odd(r46, r57);
@@ -58,8 +57,7 @@ PLATEN_INLINE Rotation<Simd> to_columns(const Row *rows) {
                     join(rows[5], rows[7]));
 }
 
-// And back: the twos of rows l and l + 4, l = 0 ... 3, in turn; odd_twos make a row of the first, even_twos
-// of the second.
+// And back: the pairs of rows l and l + 4, l = 0 ... 3, alternate; odd_twos gives row l, even_twos row l + 4.
 struct RowTwos {
   Native of[4];
 };
@@ -72,7 +70,7 @@ PLATEN_INLINE RowTwos to_twos(const Rotation<Simd> &t) {
 PLATEN_INLINE RowTwos to_twos(const Triple<Simd> &t) {
   return to_twos(Rotation<Simd>{t.x, t.y, t.z, t.z});
 }
-// Row l of the first beside row l of the second, or rows l + 4.
+// Row l of a and row l of b in one vector, or rows l + 4.
 PLATEN_INLINE Native rows_of_first(const RowTwos &a, const RowTwos &b, int l) {
   return odd_twos(a.of[l], b.of[l]);
 }
@@ -80,7 +78,7 @@ PLATEN_INLINE Native rows_of_second(const RowTwos &a, const RowTwos &b, int l) {
   return even_twos(a.of[l], b.of[l]);
 }
 
-// Two rows that follow each other in memory, and the columns of the first and of the second.
+// Two consecutive rows in memory, and the columns of the first and of the second.
 typedef Native LongRow;
 PLATEN_INLINE LongRow load_long_row(const double *from) {
   return load_native(from);
@@ -94,12 +92,12 @@ PLATEN_INLINE Rotation<Simd> second_columns(const LongRow *rows) {
                     upper(rows[5], rows[7]));
 }
 
-// One column of eight rows that follow each other.
+// One column of eight consecutive rows.
 PLATEN_INLINE Simd load(const double *from) {
   return load_native(from);
 }
 
-// Eight vectors that follow each other in memory: x0 y0 z0 x1 y1 z1 x2 y2, z2 x3 ... x5, y5 z5 ... z7.
+// Eight consecutive vectors in memory: x0 y0 z0 x1 y1 z1 x2 y2, z2 x3 ... x5, y5 z5 ... z7.
 PLATEN_INLINE Triple<Simd> load(const Vector3 *from) {
   const double *at = &from->x;
   const Native a = load_native(at), b = load_native(at + 8), c = load_native(at + 16);

@@ -1,4 +1,4 @@
-// Rows of four doubles as one vector each, for SIMD vectors of four lanes (SIMD vector.inc.h).
+// Rows of four doubles as one vector each, for SIMD vectors of four lanes (simd.inc.h).
 #pragma once
 
 namespace platen::dem::kernels {
@@ -26,12 +26,12 @@ PLATEN_INLINE void transpose(const Row *in, Row *out) {
   out[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
 }
 
-// One column of four rows that follow each other.
+// One column of four consecutive rows.
 PLATEN_INLINE Simd load(const double *from) {
   return load_row(from);
 }
 
-// Four vectors that follow each other in memory.
+// Four consecutive vectors in memory.
 PLATEN_INLINE Triple<Simd> load(const Vector3 *from) {
   const double *at = &from->x;
   const Row a = load_row(at), b = load_row(at + 4), c = load_row(at + 8);

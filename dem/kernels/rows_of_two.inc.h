@@ -1,5 +1,5 @@
 // Rows of four doubles as two vectors each, for SIMD vectors of two lanes: plain x86-64, whose registers hold
-// two doubles (SIMD vector.inc.h).
+// two doubles (simd.inc.h).
 #pragma once
 
 namespace platen::dem::kernels {
@@ -43,12 +43,12 @@ PLATEN_INLINE void store_row(double *to, const Row &a) {
   store_two(to + 2, a.high);
 }
 
-// One column of two rows that follow each other.
+// One column of two consecutive rows.
 PLATEN_INLINE Simd load(const double *from) {
   return load_two(from);
 }
 
-// Two vectors that follow each other in memory.
+// Two consecutive vectors in memory.
 PLATEN_INLINE Triple<Simd> load(const Vector3 *from) {
   const double *at = &from->x;
   const Native a = load_two(at), b = load_two(at + 2), c = load_two(at + 4); // x0 y0, z0 x1, y1 z1

@@ -1,6 +1,6 @@
-// SIMD vectors of doubles and how they are read from and written to rows; for the kernel sources, which set
-// PLATEN_LANES (2, 4 or 8). Everything stays in an unnamed namespace of the including file, because functions
-// compiled for one instruction set must never be linked into another's.
+// SIMD vectors of doubles, read from and written to rows; for the kernel sources, which set PLATEN_LANES (2,
+// 4 or 8). Everything is in an unnamed namespace of the including file, because functions compiled for one
+// instruction set must never be linked into code for another.
 #pragma once
 
 #include <cstddef>
@@ -17,15 +17,14 @@ namespace {
 constexpr int lanes = PLATEN_LANES;
 typedef double Native __attribute__((vector_size(8 * PLATEN_LANES)));
 
-// A struct of this file, not the bare vector type: what is instantiated on it then belongs to this file
-// alone.
+// A struct of this file, not the bare vector type: templates on it then belong to this file only.
 struct Simd {
   Native v{};
   Simd() = default;
   Simd(Native a) : v(a) {}
   Simd(double a) : v(a - Native{}) {}
 };
-// Beside those of double, which the ones below would hide.
+// The functions for double, which the ones below would hide.
 using dem::all_positive;
 using dem::any_positive;
 using dem::larger;
@@ -62,13 +61,13 @@ PLATEN_INLINE Simd larger(const Simd &a, const Simd &b) {
   return a.v > b.v ? a.v : b.v;
 }
 PLATEN_INLINE Simd positive_part(const Simd &a) {
-#if PLATEN_LANES == 8 && defined(__AVX512F__) // the compiler makes two instructions of the comparison with 0
+#if PLATEN_LANES == 8 && defined(__AVX512F__) // the compiler needs two instructions for the comparison with 0
   return (Native)_mm512_maskz_max_pd(__mmask8(-1), (__m512d)a.v, _mm512_setzero_pd());
 #else
   return a.v > 0.0 ? a.v : Native{};
 #endif
 }
-// Which lanes are above 0, a bit each.
+// Bit mask of the lanes above 0.
 PLATEN_INLINE unsigned positive_lanes(const Simd &a) {
 #if PLATEN_LANES == 8
   return _mm512_cmp_pd_mask((__m512d)a.v, _mm512_setzero_pd(), _CMP_GT_OQ);
@@ -84,7 +83,7 @@ PLATEN_INLINE unsigned positive_lanes(const Simd &a) {
   return bits;
 #endif
 }
-// Which lanes of `a` are at `b` or above it, a bit each.
+// Bit mask of the lanes with a >= b.
 PLATEN_INLINE unsigned lanes_at_least(const Simd &a, const Simd &b) {
 #if PLATEN_LANES == 8 && defined(__AVX512F__)
   return _mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_GE_OQ);
@@ -134,7 +133,7 @@ namespace platen::dem::kernels {
 namespace {
 
 #if PLATEN_LANES != 8
-// Two rows that follow each other in memory, and the columns of the first and of the second.
+// Two consecutive rows in memory, and the columns of the first and of the second.
 struct LongRow {
   Row first, second;
 };

@@ -1,17 +1,17 @@
-// Block kernels of soft spheres on their way to rest (dem/packing/soft_spheres.h). One source, compiled once
-// per instruction set (soft_kernel.inc.h), to the same last bit of every column and sum. Lengths in mean
+// Block kernels for the relaxation of soft spheres (dem/packing/soft_spheres.h). One source, compiled once
+// per instruction set (soft_kernel.inc.h), with every column and sum equal to the last bit. Lengths in mean
 // radii.
 //
-// Single precision is enough because nothing large is ever subtracted: spheres are known by the way that they
-// have gone since the lists of partners were made, pairs by what they were then, which was found in double
-// precision. An overlap is then right to some 1e-7 of the ways, not of the places.
+// Single precision is enough because no large numbers are subtracted: spheres are stored by their
+// displacement since the lists of partners were made, pairs by their distance at that time, computed in
+// double precision. The error of an overlap is then some 1e-7 of the displacements, not of the positions.
 #pragma once
 
 #include <cstddef>
 
 namespace platen::dem::kernels {
 
-// Spheres of a block are taken in groups of so many, whatever the instruction set.
+// Spheres of a block are computed in groups of this size, for every instruction set.
 constexpr std::size_t soft_group = 16;
 
 struct alignas(16) SoftRow { // read as a vector of four
@@ -19,32 +19,32 @@ struct alignas(16) SoftRow { // read as a vector of four
   float w = 0;
 };
 
-// Rows fill whole groups; those left over have a radius and no partners.
+// Rows fill whole groups; padding rows have a radius and no partners.
 struct SoftColumns {
-  SoftRow *way;           // since the lists were made; w: the radius
+  SoftRow *way;           // displacement since the lists were made; w: the radius
   SoftRow *velocity;      // w: 0
   SoftRow *force;         // w: 0
-  const SoftRow *outside; // what acts on a sphere beside its partners; w: 0
+  const SoftRow *outside; // force on a sphere except from its partners; w: 0
 };
 
-// Who may touch whom in one block: soft_group numbers a group or a step, lane by lane.
+// Possible contacts of one block: soft_group numbers per group or per step, lane by lane.
 struct SoftLists {
   std::size_t groups;
   const int *row;          // the spheres of each group
-  const int *steps;        // of each group: the most partners that one of its spheres has
-  const unsigned *partner; // of each step: the row whose way the partner goes, in bytes from the first
-  // Of each step: from the sphere to its partner when the lists were made, x, y and z, and the square of this
-  // distance less that of the sum of radii. Lanes that have no partner left hold their own row, no distance
+  const int *steps;        // of each group: largest number of partners of its spheres
+  const unsigned *partner; // of each step: row of the partner, as bytes from the first row
+  // Of each step: vector from the sphere to its partner when the lists were made, x, y and z, and its square
+  // minus the square of the sum of radii. Lanes without a further partner hold their own row, zero distance
   // and `no_partner`.
   const float *apart;
 };
 constexpr float no_partner = 1e30F;
 
-// Of the spheres of a block, every pair once for each of its ends there.
+// Sums over the spheres of a block; every pair counts once for each of its ends there.
 struct SoftSums {
   double overlap = 0, contacts = 0;
   double push = 0,
-         speed = 0; // squares of the forces, and of the velocities that a kick by `step` would leave
+         speed = 0; // squares of the forces, and of the velocities after a kick by `step`
   double power = 0; // forces times velocities
 };
 SoftSums add_soft_forces_baseline(SoftColumns, SoftLists, float step);

@@ -1,6 +1,6 @@
 // Bodies of the kernels of soft spheres; the including file sets PLATEN_LANES (4, 8 or 16 floats) and the
-// names. Compiled without contraction, and sums are kept lane by lane of a whole group: every instruction set
-// gives the same columns and sums. Everything stays in an unnamed namespace (group.inc.h says why).
+// names. Compiled without contraction, and sums are kept for each lane of a whole group: every instruction
+// set gives the same columns and sums. Everything is in an unnamed namespace (simd.inc.h gives the reason).
 #include "dem/kernels/soft_kernel.h"
 
 namespace platen::dem::kernels {
@@ -12,7 +12,7 @@ typedef float FloatsInMemory __attribute__((vector_size(4 * PLATEN_LANES), align
 typedef float Quad __attribute__((vector_size(16)));
 typedef float QuadInMemory __attribute__((vector_size(16), may_alias));
 
-// Vectors stay in registers.
+// Keeps vectors in registers.
 #define PLATEN_SOFT_INLINE inline __attribute__((always_inline))
 
 constexpr float tiny = 1e-30F; // keeps the direction of two coincident spheres finite (zero)
@@ -44,7 +44,7 @@ inline Floats root(const Floats &a) {
   return r;
 }
 
-// Rows k, k + 4, ... of a group as one vector, and one of them again.
+// Joins rows k, k + 4, ... of a group to one vector; part() extracts one of them.
 template <class Place>
 PLATEN_SOFT_INLINE Floats join(const SoftRow *column, const Place *at) {
 #if PLATEN_LANES == 4
@@ -109,8 +109,8 @@ struct LaneSums {
   Floats overlap[parts]{}, contacts[parts]{}, push[parts]{}, speed[parts]{}, power[parts]{};
 };
 
-// With u the way of the partner less the own, and the vector d apart: |d + u|^2 = |d|^2 + (d + (d + u)) . u.
-// The overlap is the difference of the squares of reach and distance over their sum.
+// With u the partner's displacement minus the own one and d the listed vector, |d + u|^2 is equal to |d|^2 +
+// (d + (d + u)) . u. The overlap is the difference of the squares of reach and distance over their sum.
 inline void add_forces(const SoftColumns &c, const SoftLists &lists, std::size_t group,
                        const unsigned *partner, const float *apart, float step, int p, LaneSums &sums) {
   const int *row = lists.row + soft_group * group + static_cast<std::size_t>(lanes * p);
@@ -155,7 +155,7 @@ SoftSums PLATEN_SOFT_FORCES(SoftColumns c, SoftLists lists, float step) {
           sum_of(sums.power)};
 }
 
-// All four numbers of a row alike: forces and velocities have nothing where the radius stands.
+// Treats all four numbers of a row alike: forces and velocities are 0 where the radius stands.
 float PLATEN_SOFT_DRIFT(SoftColumns c, SoftMove m, std::size_t first, std::size_t last) {
   Floats fastest{};
   for (std::size_t row = first; row < last; row += quads) {

@@ -1,14 +1,14 @@
-// What elastic bonds between two spheres have in common: a potential of their present distance and
-// orientations, with its exact derivatives, so that no energy is stored under rigid motion of any size,
-// energy is conserved and there is no history.
+// Common form of elastic bonds between two spheres: a potential of their present distance and orientations,
+// with its exact derivatives, so that rigid motion of any size stores no energy, energy is conserved and
+// there is no history.
 //
 // Pair (i, j): d = x_j - x_i, n = d / |d|, reference vector D (d when the bond was made, both spheres
 // unturned). With r_i = R_i(a D), r_j = R_j((1 - a) D) carried by the spheres' rotations, u = d - r_i - r_j
 // is the relative displacement at the point c = x_i + a d, and v the vector part of the relative rotation
 // quaternion (2 v = relative rotation for small angles, relative error angle^2 / 24). Potential:
 //   U = 1/2 k_n A (|d| - |D|)^2 + 1/2 K_s |u_s|^2 + 2 k_n I |v_s|^2 + 2 K_t (v.n)^2
-// Laws say what K_s, K_t and a are, and what breaks the bond. Force and torque are the bond's action on i;
-// tension is positive (docs/theory.md).
+// Each law defines K_s, K_t, a and the criterion of failure. Force and torque are the action of the bond on
+// i; tension is positive (docs/theory.md).
 #pragma once
 
 #include <cmath>
@@ -26,7 +26,7 @@ namespace platen::dem {
 #define PLATEN_INLINE inline
 #endif
 
-// What a law asks of its real type beyond arithmetic; SIMD vectors bring their own.
+// Functions that a law needs for its real type beyond arithmetic; SIMD vectors bring their own.
 inline double root(double a) {
   return std::sqrt(a);
 }
@@ -39,15 +39,15 @@ inline double positive_part(double a) {
 inline double larger(double a, double b) {
   return a > b ? a : b;
 }
-// a where x > 0, else b.
+// a where x > 0, otherwise b.
 inline double where_positive(double x, double a, double b) {
   return x > 0.0 ? a : b;
 }
-// Of a SIMD vector: of any of its lanes.
+// For a SIMD vector: whether any lane is positive.
 inline bool any_positive(double a) {
   return a > 0.0;
 }
-// Of a SIMD vector: of every lane.
+// For a SIMD vector: whether every lane is positive.
 inline bool all_positive(double a) {
   return a > 0.0;
 }
@@ -90,7 +90,7 @@ PLATEN_INLINE Triple<Real> turned(const Rotation<Real> &q, const Triple<Real> &v
           v.z + q.w * t.z + u.x * t.y - u.y * t.x};
 }
 
-// q conj(p): from p to q.
+// q conj(p): the rotation from p to q.
 template <class Real>
 PLATEN_INLINE Rotation<Real> relative_turn(const Rotation<Real> &p, const Rotation<Real> &q) {
   return {q.w * p.w + q.x * p.x + q.y * p.y + q.z * p.z, q.x * p.w - q.w * p.x - q.y * p.z + q.z * p.y,
@@ -104,7 +104,7 @@ struct BondGeometry {
   Real lever;                       // a
   Real normal_stiffness;            // k_n, Pa/m; 0 once the bond is broken
   Real radius;                      // R_b, m
-  Real strength_factor = Real(1.0); // s, of both strengths
+  Real strength_factor = Real(1.0); // s, factor on both strengths
 };
 template <class Real>
 struct BondMotion {
@@ -115,18 +115,18 @@ template <class Real>
 struct BondResponse {
   Triple<Real> force, torque_i, torque_j; // N, N m; force on i (on j: minus force)
   Real tension_ratio, shear_ratio;        // sigma_max / sigma_c, tau_max / tau_c; >= 1 breaks
-  Real excess;                            // below 0 only where both ratios are below 1; no unit
+  Real excess;                            // below 0 only where both ratios are below 1; dimensionless
   Real energy;                            // J
   Real normal_force, shear_force;         // N; signed (tension positive), magnitude
   Triple<Real> shear;                     // shear force on i, N
 };
-// Of one bond, for what is set up around it: time step, dashpots, estimates.
+// Stiffness of one bond, for the time step, dashpots and estimates.
 struct BondStiffness {
   double axial = 0, shear = 0;      // N/m: k_n A, K_s
   double bending = 0, twisting = 0; // N m: k_n I, K_t
 };
 
-// How far a bond is strained: what a law needs to say how near it is to its strength.
+// Strain of a bond, from which a law computes how near it is to its strength.
 template <class Real>
 struct BondStrain {
   Real length, per_square; // |d|, m; 1 / |d|^2
@@ -144,7 +144,7 @@ template <class Real>
 PLATEN_INLINE BondResponse<Real> stretch_and_shear(const BondGeometry<Real> &g, const BondMotion<Real> &m,
                                                    const Real &area_stiffness, const Real &shear_stiffness,
                                                    BondStrain<Real> &strain) {
-  // The direction enters by d / d^2, so that only the stretch waits for the root.
+  // The direction enters as d / d^2, so that only the stretch waits for the root.
   const Triple<Real> &d = m.distance;
   const Real square = dot(d, d);
   const Real per_square = 1.0 / square, length = root(square);
@@ -170,8 +170,8 @@ PLATEN_INLINE BondResponse<Real> stretch_and_shear(const BondGeometry<Real> &g, 
   return r;
 }
 
-// Bending and twisting, from the relative rotation (w, v) = q_j conj(q_i). Its sign, the way round, falls out
-// of all that is even in it. `bending` is k_n I; twisting is 1 + `more` times that.
+// Bending and twisting, from the relative rotation (w, v) = q_j conj(q_i). Force, torques and energy are even
+// in it: its sign has no effect. `bending` is k_n I; twisting is 1 + `more` times that.
 template <class Real>
 PLATEN_INLINE void bend_and_twist(BondResponse<Real> &r, BondStrain<Real> &strain, const Real &bending,
                                   double more, const BondMotion<Real> &m) {
@@ -200,7 +200,7 @@ inline double never_if_zero(double strength) {
   return strength > 0 ? strength : std::numeric_limits<double>::infinity();
 }
 
-// Strengths as the loops compare with them, made once of what a law is given.
+// Strengths in the form that the loops compare with, computed once from the parameters.
 struct BondStrength {
   double tensile_strength, shear_strength; // Pa, infinite where never reached
   double friction_coefficient;             // of shear strength in compression, tan(phi_b)
@@ -212,7 +212,7 @@ struct BondStrength {
         friction_coefficient(portable::tan(p.friction_angle)) {}
 };
 
-// What several laws are given: described once.
+// Descriptions of parameters that several laws have.
 template <class Visitor, class Parameters>
 void describe_strengths(Visitor &&v, Parameters &p) {
   v("tensile_strength", p.tensile_strength, "Pa", at_least(0), "0: never breaks in tension.");
@@ -236,11 +236,10 @@ void describe_failure(Visitor &&v, Parameters &p) {
   describe_moment_contribution(v, p);
 }
 
-// Stresses at the skin, Pa, before the strengths p look at them: sigma = axial + bending, tau = shear +
-// twisting, shear strength growing with compression by tan(phi_b), which the bond's factor leaves alone. The
-// excess compares squares, so that a
-// loop that asks only whether any bond may be at its strength takes no root and no quotient; its margin makes
-// up for the round-off of both.
+// Compares the stresses at the skin (Pa) with the strengths p: sigma = axial + bending, tau = shear +
+// twisting; the shear strength grows with compression by tan(phi_b), without the strength factor of the bond.
+// The excess compares squares, so that a loop that only checks whether any bond may be at its strength needs
+// no root and no quotient; its margin covers the round-off of both.
 template <class Strength, class Real>
 PLATEN_INLINE void compare_with_strength(BondResponse<Real> &r, const Strength &p, const Real &axial,
                                          const Real &bending_square, const Real &shear_square,

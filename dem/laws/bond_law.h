@@ -1,5 +1,5 @@
-// The laws that a specimen's bonds may follow, all bonds the same: those that have a word, and one from
-// outside. Loops ask once a block which it is.
+// The laws that the bonds of a specimen may follow, one law for all bonds: those with a word in the input,
+// and one from outside. Loops choose the law once per block.
 #pragma once
 
 #include "dem/laws/cohesive_beam.h"
@@ -22,37 +22,37 @@ inline BondLaw bond_law(const BondParameters &parameters) {
   return AllBondLaws::law(parameters);
 }
 
-// With bending and twisting, where spheres turn.
+// Whether bonds bend and twist, where spheres rotate.
 inline bool bends(const BondLaw &law) {
   return std::visit([](const auto &l) { return l.bends(); }, law);
 }
-// Bonds that make no sense between spheres that do not turn.
+// Whether the law makes no sense between spheres without rotation.
 inline bool needs_rotation(const BondLaw &law) {
   return std::visit([](const auto &l) { return l.needs_rotation; }, law);
 }
 template <class Law>
 constexpr bool only_with_rotation = Law::needs_rotation;
 template <>
-inline constexpr bool only_with_rotation<OutsideLaw> = false; // it says so itself
-// From centre to centre: they act on each other in the middle between the centres, otherwise where their
-// distance is divided as the radii are.
+inline constexpr bool only_with_rotation<OutsideLaw> = false; // its member decides
+// Centre to centre: bonds act at the middle between the centres, otherwise at the point that divides the
+// distance as the radii do.
 inline bool centre_to_centre(const BondLaw &law) {
   return std::visit([](const auto &l) { return l.centre_to_centre; }, law);
 }
 
-// The length that strain refers to is the distance of the centres when the bond is made, otherwise the sum of
+// The reference length of strain is the distance of the centres when the bond is made, otherwise the sum of
 // the radii.
 inline bool over_distance(const BondLaw &law) {
   return std::visit([](const auto &l) { return l.over_distance; }, law);
 }
-// Bonds that remember: their forces are found by bringing them up to date once a step. They yield, lose
-// strength bit by bit, and what has failed goes on as a contact of its own.
+// Bonds with a history: one update per step gives their forces. They yield, lose strength gradually, and
+// continue as a contact of their own after failure.
 inline bool has_history(const BondLaw &law) {
   return std::visit([](const auto &l) { return l.has_history; }, law);
 }
 
-// Of bonds that remember: whether rows that have failed are kept behind the whole ones of their block, so
-// that SIMD vectors of a kernel are of one kind.
+// For bonds with a history: whether failed rows are kept behind the intact ones of their block, so that all
+// bonds of a SIMD vector are of one kind.
 template <class Law, class = void>
 constexpr bool keeps_failed_last = false;
 template <class Law>
@@ -61,7 +61,7 @@ inline bool failed_rows_last(const BondLaw &law) {
   return std::visit([](const auto &l) { return keeps_failed_last<std::decay_t<decltype(l)>>; }, law);
 }
 
-// Laws that ask in every step how a bond's particles move; others do so of what breaks alone, or never.
+// Laws that need the motion of the particles in every step; others need it only for broken bonds, or never.
 template <class Law, class = void>
 constexpr bool reads_motion = false;
 template <class Law>
@@ -70,16 +70,16 @@ inline bool law_reads_motion(const BondLaw &law) {
   return std::visit([](const auto &l) { return reads_motion<std::decay_t<decltype(l)>>; }, law);
 }
 
-// Pairs within a share of the sum of their radii are bonded, whatever their gap.
+// Pairs within a fraction of the sum of their radii are bonded, whatever their gap.
 inline bool bonds_by_range(const BondLaw &law) {
   return std::visit([](const auto &l) { return l.bonds_by_range; }, law);
 }
-// What has broken rubs as grains do, of laws that have no friction of their own for it.
+// Broken bonds get the friction of grains, if their law has no friction of its own.
 inline void set_grain_friction(BondLaw &law, double friction) {
   if (auto *yielding = std::get_if<YieldingParallelBond>(&law)) yielding->grain_friction = friction;
 }
 
-// f(law) where the law held is elastic; else f's result as it is made of nothing.
+// f(law) for an elastic law; otherwise a default-constructed result.
 template <class F>
 auto of_elastic(const BondLaw &law, const F &f) {
   using Result = decltype(f(std::declval<const ParallelBond &>()));
@@ -93,7 +93,7 @@ auto of_elastic(const BondLaw &law, const F &f) {
       law);
 }
 
-// f(law) where the law held remembers; else f's result as it is made of nothing.
+// f(law) for a law with history; otherwise a default-constructed result.
 template <class F>
 auto of_remembering(const BondLaw &law, const F &f) {
   using Result = decltype(f(std::declval<const ElastoDamagePlastic &>()));

@@ -1,10 +1,10 @@
-// Cohesive beam (Andre et al. 2012 with its misprints mended): an Euler-Bernoulli beam of round section from
-// centre to centre, in the common elastic form of bond_form.h. A beam is a bond in the middle of its length l
-// = |D| with
+// Cohesive beam (Andre et al. 2012 with its misprints corrected): an Euler-Bernoulli beam of round section
+// from centre to centre, in the common elastic form of bond_form.h. A beam is a bond at the middle of its
+// length l = |D| with
 //   k_n = E/l, K_s = 12 E I/l^3, k_n I = E I/l, K_t = G I_o/l,
-// exactly so for small rotations: the tangent at rest is the 12 x 12 matrix of the beam. Against the beam of
-// the paper, whose sections turn by finite angles, end forces differ by a relative error of angle^2 / 6 of
-// what the sections turn against the chord (docs/theory.md), a millionth at strengths of a thousandth.
+// exactly so for small rotations: the tangent at rest is the 12 x 12 matrix of the beam. The sections of the
+// beam in the paper turn by finite angles; its end forces differ by a relative error of angle^2 / 6, with the
+// angle of the sections against the chord (docs/theory.md): a millionth at strengths of a thousandth.
 #pragma once
 
 #include "base/pi.h"
@@ -19,7 +19,7 @@ struct CohesiveBeam {
     double tensile_strength = 0;    // Pa; 0: never breaks in tension
     double shear_strength = 0;      // Pa; 0: never breaks in shear
     double friction_angle = 0;      // phi_b, rad
-    double moment_contribution = 1; // of bending and twisting to the stress at the skin, 0 ... 1
+    double moment_contribution = 1; // fraction of bending and twisting in the stress at the skin, 0 ... 1
 
     static constexpr const char *name = "CohesiveBeam";
     template <class Visitor, class Self>
@@ -32,7 +32,7 @@ struct CohesiveBeam {
                         has_history = false, bonds_by_range = false;
 
   Parameters parameters; // as given
-  BondStrength strength; // of them
+  BondStrength strength; // from the parameters
 
   CohesiveBeam() : CohesiveBeam(Parameters()) {}
   CohesiveBeam(const Parameters &p) : parameters(p), strength(p) {}
@@ -40,7 +40,7 @@ struct CohesiveBeam {
   BondResponse<double> operator()(const BondGeometry<double> &g, const BondMotion<double> &m) const {
     return turning<true>(g, m);
   }
-  // The lever of g is 1/2.
+  // Requires that the lever of g is 1/2.
   template <bool moments, class Real>
   BondResponse<Real> turning(const BondGeometry<Real> &g, const BondMotion<Real> &m) const;
   BondStiffness stiffness(const BondGeometry<double> &g) const; // at rest
@@ -67,7 +67,7 @@ PLATEN_INLINE void CohesiveBeam::add_failure(BondResponse<Real> &r, const BondGe
   const Parameters &p = parameters;
   const Real &kn = g.normal_stiffness;
   const Real skin = p.moment_contribution * g.radius * kn; // E r/l
-  const Real bend = 2.0 * e.half_cosine;                   // of v_s, to m
+  const Real bend = 2.0 * e.half_cosine;                   // factor from v_s to m
   const Real both = magnitude(Real(12.0 * bend * e.per_square * dot(cross(d, e.slip), e.bend)));
   const Real ends = bend * bend * e.bend_square + 36.0 * e.per_square * e.slip_square + both;
   const Real ratio = shear_ratio(g) * kn;

@@ -1,5 +1,5 @@
-// What bonds that remember have in common: what they see of the pair, what they answer, and how a vector in
-// the plane between the two goes along with it from step to step.
+// Common form of bonds with a history: their input from the pair, their response, and how a vector in the
+// contact plane is carried from step to step.
 #pragma once
 
 #include "dem/laws/bond_form.h"
@@ -13,7 +13,7 @@ struct CohesiveGeometry {
   Real normal_stiffness;            // k_n, Pa/m
   Real area;                        // A, m^2
   Real strength_factor = Real(1.0); // of both strengths
-  // Where the law needs orientations.
+  // Only where the law needs orientations:
   Triple<Real> reference = {}; // D, m
   Real radius = {};            // R_b, m
 };
@@ -22,11 +22,11 @@ template <class Real>
 struct CohesiveMotion {
   Triple<Real> distance;  // d, m, now
   Triple<Real> travelled; // of the second centre against the first, m
-  // The same at their point of contact, where rotations count too, m; where the law needs orientations with
-  // the arms in the middle of the step.
+  // The same at their point of contact, with rotations, m; where the law needs orientations, with the arms at
+  // the middle of the step.
   Triple<Real> moved;
-  Real spun_along; // rad m: what both have turned by, in the mean, along d; |d| times the spin
-  // Where the law needs orientations: from the reference to now; and what each has turned by, rad.
+  Real spun_along; // rad m: mean rotation of both along d; |d| times the spin
+  // Only where the law needs orientations: rotation from the reference, and rotation in the step, rad.
   Rotation<Real> turn_i = {}, turn_j = {};
   Triple<Real> turned_i = {}, turned_j = {};
 };
@@ -36,27 +36,27 @@ struct CohesiveResponse {
   Real normal, tension; // F_n, N; T, Pa
   Triple<Real> shear;   // N, on the first
   Real energy;          // J, stored
-  Real failed_now;      // positive where it has failed in this step
-  // Where the law needs orientations, N m; else what the force does at its arms.
+  Real failed_now;      // positive if it has failed in this step
+  // N m, where the law needs orientations; otherwise the force at its arms gives the torques.
   Triple<Real> torque_i = {}, torque_j = {};
 };
 
-// What acts in a state as it is: for sums over all bonds.
+// Force and energy of a given state: for sums over all bonds.
 template <class Real>
 struct HeldByBond {
   Triple<Real> force; // N, on the first
   Real energy;        // J, stored
 };
 
-// The plane between the two, from the last step to this one. What lies in it turns with it by the least
-// rotation and spins with the pair (Cayley's form), without change of length: of v in the plane of the normal
-// m before it becomes v - (v . n) (m + n)/(1 + m . n), and lies in that of n now.
+// The contact plane, from the last step to this one. A vector in the plane turns with it by the least
+// rotation and spins with the pair (Cayley's form), without change of length: v in the plane of the old
+// normal m becomes v - (v . n) (m + n)/(1 + m . n), and lies in the plane of the new normal n.
 template <class Real>
 struct PlaneMotion {
-  Triple<Real> n;               // to the second, now
+  Triple<Real> n;               // towards the second, now
   Triple<Real> between_normals; // (m + n)/(1 + m . n)
   Triple<Real> moved;           // in the plane, m
-  Real half, cosine, sine;      // rad, of the spin; of what is turned
+  Real half, cosine, sine;      // rad, half of the spin; cosine and sine of the spin
 
   // `length` is |d|. One quotient serves both lengths and the spin: a SIMD vector of eight waits for each.
   PLATEN_INLINE PlaneMotion(const CohesiveMotion<Real> &m, const Real &length) {
@@ -75,24 +75,24 @@ struct PlaneMotion {
     sine = 2.0 * spun * length * per_turning;
   }
 
-  // The same motion in the plane as it was in the middle of the step, turned and spun by the other half of
-  // it: what opens while the plane turns is no slip, and the mean of the forces at both ends does the work of
-  // the path but for third powers of the step.
+  // The motion `by` in the plane at the middle of the step, turned and spun by the other half of the step: an
+  // opening while the plane turns is no slip, and the mean of the forces at both ends does the work of the
+  // path except for third powers of the step.
   PLATEN_INLINE void take_from_the_middle(const Triple<Real> &by) {
     const Real along = dot(by, between_normals) / dot(between_normals, between_normals);
     const Triple<Real> leant = by - scale(along, between_normals);
     const Triple<Real> flat = leant - scale(dot(leant, n), n);
     moved = flat + scale(half, cross(n, flat));
   }
-  // A displacement at the point of contact: turned, and what the step has added to it.
+  // A displacement at the point of contact: turned, plus the slip of the step.
   PLATEN_INLINE Triple<Real> carried(const Triple<Real> &v) const {
     const Triple<Real> flat = v - scale(dot(v, n), between_normals);
     return scale(cosine, flat) + scale(sine, cross(n, flat)) + moved;
   }
 };
 
-// Of bonds that have failed with a plastic closing of `plastic` (Pa): whether none of them is pressed, nor
-// was when its spring of friction was last slid, so that nothing acts and nothing changes.
+// For failed bonds with a plastic closing of `plastic` (Pa): whether none is compressed, nor was when its
+// friction spring last slid, so that no force acts and no state changes.
 template <class Real>
 PLATEN_INLINE bool are_apart(const CohesiveGeometry<Real> &g, const Triple<Real> &distance,
                              const Real &plastic, const Triple<Real> &spring) {
@@ -101,7 +101,7 @@ PLATEN_INLINE bool are_apart(const CohesiveGeometry<Real> &g, const Triple<Real>
   return !any_positive(pressed) && !any_positive(dot(spring, spring));
 }
 
-// A spring of friction, k x with |k x| <= cap (Pa): the share of x (m) that slips and is lost.
+// Friction spring, k x with |k x| <= cap (Pa): the fraction of x (m) that slips and is lost.
 template <class Real>
 PLATEN_INLINE Real slipping_share(const Triple<Real> &spring, const Real &stiffness, const Real &cap) {
   const Real pull = stiffness * root(dot(spring, spring));

@@ -1,15 +1,15 @@
-// Elasto-damage-plastic cohesive bonds that bend and twist, as an option: the moments of the parallel bond
-// (bond_form.h), k_n I and k_s J times the relative rotation, in total form, so that nothing more is
-// remembered. They strain the skin, T + beta |M_b| R_b/I and k_s |u_s| + beta |M_t| R_b/J by what they would
-// be without damage, and lose what the worse of tension and shear has lost: M = min(g(D_n), g(D_s)) M_whole.
-// What has failed has none. Yield leaves them alone.
+// Option of the elasto-damage-plastic cohesive bonds: bending and twisting. The moments are those of the
+// parallel bond (bond_form.h), k_n I and k_s J times the relative rotation, in total form, without further
+// history. Without damage they load the skin, T + beta |M_b| R_b/I and k_s |u_s| + beta |M_t| R_b/J, and they
+// soften with the more damaged one of tension and shear: M = min(g(D_n), g(D_s)) M_whole. A failed bond has
+// no moments. Yield does not change them.
 #pragma once
 
 #include "dem/laws/elasto_damage_plastic.h"
 
 namespace platen::dem {
 
-// The law where it bends: for loops, which ask once a block which of the two it is.
+// The law with bending: for loops, which choose one of the two once per block.
 struct BendingCohesive {
   static constexpr bool needs_orientations = true;
   template <class Real>
@@ -17,10 +17,10 @@ struct BendingCohesive {
 
   const ElastoDamagePlastic &law;
 
-  // Moments without damage, of a bond in this pose, and how the skin is strained by them.
+  // Moments of a bond in this pose without damage, and the stresses that they cause at the skin.
   template <class Real>
   struct Whole {
-    BondResponse<Real> moments; // N, N m, J: of moments alone
+    BondResponse<Real> moments; // N, N m, J: by moments alone
     SkinStress<Real> skin;
   };
   template <class Real>
@@ -29,7 +29,7 @@ struct BendingCohesive {
   template <class Real>
   CohesiveResponse<Real> operator()(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
                                     const CohesiveMotion<Real> &m) const;
-  // As of the law without moments.
+  // As in the law without moments.
   static constexpr bool quick_while_sound = true, failed_rows_last = true;
   static constexpr const auto &sound_members = ElastoDamagePlastic::sound_members;
   template <class Real>
@@ -47,7 +47,7 @@ struct BendingCohesive {
   template <class Real>
   CohesiveResponse<Real> advance_broken(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
                                         const CohesiveMotion<Real> &m) const {
-    return law.advance_broken(s, g, m); // it has no moments
+    return law.advance_broken(s, g, m); // a broken bond has no moments
   }
   template <class Real>
   HeldByBond<Real> held(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
@@ -94,13 +94,13 @@ PLATEN_INLINE CohesiveResponse<Real> BendingCohesive::operator()(CohesiveState<R
   const Whole<Real> w = whole(g, BondMotion<Real>{m.distance, m.turn_i, m.turn_j});
   CohesiveResponse<Real> r = law.template advance_under<true>(w.skin, s, g, m);
   const Real is = law.share_of_moments(s, g);
-  // As of every spring that loses a share: the product of both ends, of which the first is the second less
-  // the step.
+  // As for every spring that loses a fraction: the product of both ends; the first end is the second less the
+  // step.
   const BondResponse<Real> &moments = w.moments;
   const Real step = dot(moments.force, m.travelled) - dot(moments.torque_i, m.turned_i) -
                     dot(moments.torque_j, m.turned_j); // J
   s.dissipated = s.dissipated + 0.5 * (was - is) * (2.0 * moments.energy - step);
-  const Triple<Real> moment = cross(m.distance, r.force); // of the shear force at its arms
+  const Triple<Real> moment = cross(m.distance, r.force); // by the forces at their arms
   r.torque_i = scale(g.lever, moment) + scale(is, moments.torque_i);
   r.torque_j = scale(Real(1.0 - g.lever), moment) + scale(is, moments.torque_j);
   r.force = r.force + scale(is, moments.force);

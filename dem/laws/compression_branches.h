@@ -1,5 +1,5 @@
-// Yield of a cohesive bond in compression along straight branches that bend ever further down, with elastic
-// unloading. In stresses: e = -k_n u_n is that of closing without yield, q = k_n p the plastic closing p,
+// Yield of a cohesive bond in compression along straight branches of falling slope, with elastic unloading.
+// In stresses: e = -k_n u_n is the stress of closing without yield, q = k_n p that of the plastic closing p,
 // which never decreases: q >= e - envelope(e) (Onate et al. 2015; docs/theory.md).
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace platen::dem {
 
-// Described as members of the law that has them.
+// Describes them as members of the law's parameters.
 template <class Visitor, class Parameters>
 void describe_compression(Visitor &&v, Parameters &p) {
   v("compression_limits", p.compression_limits, "Pa", above(0),
@@ -24,23 +24,23 @@ void describe_compression(Visitor &&v, Parameters &p) {
 
 struct CompressionBranches {
   struct Branch {
-    double limit = 0, slope = 1;     // Pa; modulus over that of the branch, 1: no yield
+    double limit = 0, slope = 1;     // Pa; E_0 / E of the branch, 1: no yield
     double begin = 0, per_slope = 1; // Pa, elastic stress where it begins; 1 / slope
   };
   static constexpr std::size_t most = 3;
-  Branch branches[most] = {}; // where fewer are given, the last goes on
+  Branch branches[most] = {}; // if fewer are given, the last one continues
   std::size_t given = 0;
 
   CompressionBranches() = default;
-  // Throws BadParameter of the law's parameters of this name.
+  // Throws BadParameter with `law` as the name of the parameters.
   CompressionBranches(const char *law, const std::vector<double> &limits, const std::vector<double> &slopes);
 
-  // Pa, of closing as far as `elastic` (Pa, without yield) for the first time.
+  // Pa, stress of the first closing up to `elastic` (Pa, stress without yield).
   template <class Real>
   Real envelope(const Real &elastic) const;
-  // Slope of the envelope there, of 1 without yield; at a kink that of closing further.
+  // Slope of the envelope there, 1 without yield; at a kink the slope of further closing.
   double slope(double elastic) const;
-  // J/m^2 Pa/m: taken by plastic closing up to q (Pa), times the stiffness k_n.
+  // J/m^2 Pa/m: energy dissipated by plastic closing up to q (Pa), times the stiffness k_n.
   template <class Real>
   Real work(const Real &q) const;
 
@@ -72,7 +72,7 @@ inline CompressionBranches::CompressionBranches(const char *law, const std::vect
   }
 }
 
-// The straight branches bend ever further down, so that the lowest of their lines is the envelope.
+// The slopes of the branches decrease, so that the lowest of their lines is the envelope.
 template <class Real>
 PLATEN_INLINE Real CompressionBranches::envelope(const Real &elastic) const {
   Real lowest = elastic;
@@ -100,8 +100,8 @@ inline double CompressionBranches::slope(double elastic) const {
   return 1 / slope;
 }
 
-// Along a branch of slope Y the yield stress is (LCS Y + q - e_b)/(Y - 1), e_b where the branch begins; a
-// branch of slope 1 adds no closing. Each branch is passed from where the last one ended to q, or to its end.
+// Along a branch of slope Y from e_b the yield stress is (LCS Y + q - e_b)/(Y - 1); a branch of slope 1 adds
+// no closing. Each branch is integrated from the end of the last one to q or to its own end.
 template <class Real>
 PLATEN_INLINE Real CompressionBranches::work(const Real &q) const {
   Real work = q * 0.0;

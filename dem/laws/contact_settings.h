@@ -1,4 +1,4 @@
-// What contacts between unbonded grains are given.
+// Parameters of contacts between unbonded grains.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@ namespace platen::dem {
 enum class NormalContact { linear, hertz };
 enum class TangentialContact { none, coulomb, coulomb_with_rolling };
 
-// A contact stiffness: a multiple of the k_n A that a bond of the pair has, an absolute one, or LS-DYNA's
-// NormK, a multiple of kap_i R_i kap_j R_j / (kap_i R_i + kap_j R_j) with kap = E / (3 (1 - 2 nu)).
+// A contact stiffness: a multiple of k_n A of a bond of the pair, an absolute value, or LS-DYNA's NormK, a
+// multiple of kap_i R_i kap_j R_j / (kap_i R_i + kap_j R_j) with kap = E / (3 (1 - 2 nu)).
 struct Stiffness {
   enum class Kind { of_bond, absolute, of_bulk };
   Kind kind = Kind::of_bond;
@@ -31,13 +31,13 @@ struct ContactSettings {
   double young_modulus = 17e9;   // Pa, of the grains (Hertz, of_bulk)
   double poisson_ratio = 0.15;
 
-  // Of multiples of bonds, by the spheres of the aggregate in a pair (dem/heterogeneity.h).
+  // Factors on multiples of bonds, by the number of aggregate spheres in a pair (dem/heterogeneity.h).
   std::array<double, 3> modulus_factors{1, 1, 1};
 
   // Linear: k_n, N/m. Hertz: 4/3 E* sqrt(R*), N/m^1.5.
   double coefficient(double ri, double rj, const BondLayout &layout) const;
   double dashpot() const; // fraction of critical
-  // The same, that the time step counts with.
+  // Fraction of critical damping that the time step assumes.
   double dashpot_reserve() const;
 
   static constexpr const char *name = "ContactSettings";

@@ -1,5 +1,5 @@
-// Coulomb friction with a tangential spring. A law is a value: parameters, state, one call operator. Its text
-// is one for one contact and for SIMD vectors of them (lanes.h), which gives the same bits.
+// Coulomb friction with a tangential spring. A law is a value: parameters, state, one call operator. The same
+// source serves one contact and SIMD vectors of contacts (lanes.h), with the same bits.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace platen::dem {
 
-// What friction makes of a spring in a step.
+// Result of friction for a spring in one step.
 template <class Real, class Truth>
 struct Friction {
   Triple<Real> spring; // N, new
@@ -20,7 +20,7 @@ struct Friction {
 };
 
 // stretch: m. normal_force: N. tangential_stiffness: N/m. slides_above, slides_at: coefficients. Without a
-// stiffness there is no spring, and nothing is lost.
+// stiffness there is no spring and no loss.
 template <class How, class Real>
 PLATEN_INLINE auto spring_with_friction(const Triple<Real> &before, const Triple<Real> &stretch,
                                         const Real &normal_force, const Real &tangential_stiffness,
@@ -35,20 +35,20 @@ PLATEN_INLINE auto spring_with_friction(const Triple<Real> &before, const Triple
   f.spring = choose<How>(slides, slid, choose<How>(pressed, trial, no_vector<Real>()));
   f.slides = slides;
   f.pressed = pressed;
-  // 1/2 (T_n + T_n+1) . (T_trial - T_n+1) / k_t, which is nothing where the trial holds.
+  // 1/2 (T_n + T_n+1) . (T_trial - T_n+1) / k_t, which is 0 if the contact sticks.
   const Triple<Real> both = choose<How>(slides, before + slid, before),
                      rest = choose<How>(slides, trial - slid, trial);
-  const auto stiff = How::above(tangential_stiffness, Real(0.0)); // else 0 / 0
+  const auto stiff = How::above(tangential_stiffness, Real(0.0)); // otherwise 0 / 0
   f.dissipated = How::choose((slides | How::negated(pressed)) & stiff,
                              Real(0.5) * dot(both, rest) / tangential_stiffness, Real(0.0));
   f.slip = How::choose(slides & stiff, (size - limit) / tangential_stiffness, Real(0.0));
   return f;
 }
 
-// The spring holds until its force exceeds mu_s N; then it slides at mu_d N, the stored force rescaled to
-// that limit with its direction kept, until a trial force below mu_d N sticks again (Cundall and Strack 1979;
-// the two coefficients as platen tests on concrete give them). A coefficient of infinity never slides. With
-// mu_d > mu_s sliding starts without a rise: the force never exceeds the trial.
+// The spring sticks until its force exceeds mu_s N; then it slides at mu_d N: the stored force is rescaled to
+// that limit in its direction, until a trial force below mu_d N sticks again (Cundall and Strack 1979; two
+// coefficients as in platen tests on concrete). A contact with an infinite coefficient never slides. With
+// mu_d > mu_s sliding starts without a rise: the force never exceeds the trial force.
 struct CoulombFriction {
   struct Parameters {
     double friction_static = std::numeric_limits<double>::quiet_NaN();  // 1, >= 0
@@ -57,22 +57,22 @@ struct CoulombFriction {
   struct State {
     Vector3 spring;  // N, tangential force; the caller carries it with the contact plane between calls
     int sliding = 0; // 0 sticks, 1 slides
-    double slip = 0; // m, path slid since the contact closed
+    double slip = 0; // m, slip path since the contact closed
   };
   struct Result {
     Vector3 force;         // N, the new spring force
     double dissipated = 0; // J, lost to sliding in this step
-    double slip = 0;       // m, path slid in this step
+    double slip = 0;       // m, slip path in this step
   };
 
   Parameters parameters;
 
-  // stretch: relative tangential displacement over the step (m), in the plane of the contact, with the sign
-  // that the force is to have: force = + tangential_stiffness stretch. normal_force: N, >= 0 when pressed; 0
-  // or less lets go of the spring. tangential_stiffness: N/m, at least 0.
+  // stretch: relative tangential displacement over the step (m), in the contact plane, with the sign of the
+  // force: force = + tangential_stiffness stretch. normal_force: N, >= 0 in compression; 0 or less releases
+  // the spring. tangential_stiffness: N/m, at least 0.
   //
-  // dissipated = 1/2 (T_n + T_n+1) . (T_trial - T_n+1) / k_t: with the spring's energy T^2 / (2 k_t) it adds
-  // up to the work of the mean force over the step, exactly, which is the work that the leapfrog sees.
+  // dissipated = 1/2 (T_n + T_n+1) . (T_trial - T_n+1) / k_t: with the spring energy T^2 / (2 k_t) it adds up
+  // exactly to the work of the mean force over the step, which is the work in the leapfrog scheme.
   Result operator()(State &state, const Vector3 &stretch, double normal_force,
                     double tangential_stiffness) const {
     const auto f = spring_with_friction<OfScalars, double>(
@@ -85,8 +85,8 @@ struct CoulombFriction {
     return {state.spring, f.dissipated, f.slip};
   }
 
-  // What may become of the spring, for laws with other limits. `trial` is its force where nothing slides (N),
-  // `size` the length of that.
+  // The three outcomes for the spring, for laws with other limits. `trial` is its force without sliding (N),
+  // `size` the length of `trial`.
   static Result let_go(State &state, const Vector3 &trial, double tangential_stiffness) {
     Result result;
     if (tangential_stiffness > 0) result.dissipated = 0.5 * dot(state.spring, trial) / tangential_stiffness;

@@ -1,18 +1,18 @@
 // Local elasto-damage-plastic law (Onate et al. 2015 with its gaps filled, docs/theory.md): a cohesive bond
-// of area A between two spheres that may be some way apart. Elastic; tension and shear soften by damage;
-// closing yields along straight branches and unloads elastically; what is left after failure is Coulomb
-// friction. It neither bends nor twists, where it is not asked to (cohesive_moments.h): moments come from the
-// shear force's arms alone.
+// of area A between two spheres that may have a gap. It is elastic; tension and shear soften by damage;
+// compression yields along straight branches and unloads elastically; after failure Coulomb friction remains.
+// Without the option of cohesive_moments.h it neither bends nor twists: the only moments are those of the
+// shear force at its arms.
 //
-// Everything in stresses: k_n = E/|D| per area, u_n = |d| - |D|, and the plastic closing p held as q = k_n p:
+// Everything in stresses: k_n = E/|D| per area, u_n = |d| - |D|, plastic closing p stored as q = k_n p:
 //   T = k_n u_n + q             > 0: tension, < 0: compression
 //   q >= e - envelope(e)        with e = -k_n u_n, the stress of closing without yield
 //   F_n/A = g(D_n) T in tension, T in compression
 //   F_s/A = k_s (g(D_s) u_s + D_s x)   with |k_s x| <= mu_2 sigma_c, x the spring of friction
 //   D_n >= (T/sigma_ft - 1)/delta_n, D_s >= (k_s |u_s|/(tau_f + mu_1 sigma_c) - 1)/delta_s
 //   g(D) = (1 - D)/(1 + delta D)       linear softening, unloading through the origin
-// so that the strength in shear passes from tau_f + mu_1 sigma_c to mu_2 sigma_c as damage grows. An
-// cohesive bond whose tension or shear is used up has failed in both.
+// so that the shear strength changes from tau_f + mu_1 sigma_c to mu_2 sigma_c as damage grows. A cohesive
+// bond that is fully damaged in tension or shear has failed in both.
 #pragma once
 
 #include <vector>
@@ -23,18 +23,18 @@
 
 namespace platen::dem {
 
-// The choice between the two lines of failure: whether tension takes from the strength in shear.
+// Coupled: tension reduces the shear strength, and shear the tensile strength.
 enum class FailureLine { uncoupled, coupled };
 
 template <class Real>
 struct CohesiveState {
   Real plastic;                      // q, Pa, >= 0
-  Real tension_damage, shear_damage; // D_n, D_s; the one that is 1 is what failed
+  Real tension_damage, shear_damage; // D_n, D_s; 1: failed in this mode
   Triple<Real> shear;                // u_s, m
   Triple<Real> slider;               // x, m
-  Real dissipated;                   // J: by damage until it fails, by friction from then on
+  Real dissipated;                   // J: by damage until failure, by friction afterwards
 
-  // v(column, unit, this member of each state), all of them.
+  // Calls v(column, unit, this member of each state) for all members.
   template <class Visitor, class... States>
   static void describe(Visitor &&v, States &...s) {
     v("plastic", "Pa", s.plastic...);
@@ -45,12 +45,12 @@ struct CohesiveState {
     v("friction_spring", "m", s.slider...);
   }
 };
-// By moments at the skin of a cohesive bond, as they would be without damage.
+// Stresses by moments at the skin of a cohesive bond, computed without damage.
 template <class Real>
 struct SkinStress {
   Real bending, twisting; // Pa
 };
-// How often a step of sound bonds changes what they remember.
+// How often a step of intact bonds changes a member of their state.
 enum class Changes { never, rarely, always };
 
 struct ElastoDamagePlastic {
@@ -62,13 +62,12 @@ struct ElastoDamagePlastic {
     double friction_static = 0;                            // mu_1, of intact cohesive bonds
     double friction_dynamic = 0;                           // mu_2, of failed ones
     double softening_tension = 0.2, softening_shear = 1.0; // delta, > 0
-    // N/m (J/m^2), area under the softening branch; above 0 it takes delta's place: delta = 2 G_f k /
-    // strength^2.
+    // N/m (J/m^2), area under the softening branch; above 0 it replaces delta: delta = 2 G_f k / strength^2.
     double fracture_energy_tension = 0, fracture_energy_shear = 0;
-    // Pa, LCS; and YRC = E_0 / E of the branch that begins there. Up to three; none: no yield.
+    // LCS, Pa, and YRC = E_0 / E of the branch that begins there. Up to three; empty: no yield.
     std::vector<double> compression_limits, compression_slopes;
     FailureLine failure_line = FailureLine::uncoupled;
-    double moment_contribution = 1; // beta, of moments to damage
+    double moment_contribution = 1; // beta, contribution of moments to damage
     bool moments = false;           // bending and twisting
 
     static constexpr const char *name = "ElastoDamagePlastic";
@@ -78,7 +77,7 @@ struct ElastoDamagePlastic {
   static constexpr bool needs_rotation = false, centre_to_centre = false, over_distance = true,
                         has_history = true, bonds_by_range = true, needs_orientations = false;
 
-  // Throws BadParameter where the branches are no three, or bend up again.
+  // Throws BadParameter if there are more than three branches, or if compression would grow stiffer again.
   ElastoDamagePlastic(const Parameters &p);
   ElastoDamagePlastic() : ElastoDamagePlastic(Parameters()) {}
 
@@ -87,7 +86,7 @@ struct ElastoDamagePlastic {
 
   template <class Real>
   using State = CohesiveState<Real>;
-  // 1: it has failed, in tension or in shear.
+  // 1: the bond has failed, in tension or in shear.
   template <class Real>
   static Real damage_of(const State<Real> &s) {
     return larger(s.tension_damage, s.shear_damage);
@@ -98,18 +97,18 @@ struct ElastoDamagePlastic {
   BondStiffness stiffness(const BondGeometry<double> &g) const;
   double shear_ratio() const { return shear_ratio_; } // k_s / k_n
 
-  // Brings the state up to date and tells what acts.
+  // Updates the state and returns the response.
   template <class Real>
   CohesiveResponse<Real> operator()(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
                                     const CohesiveMotion<Real> &m) const;
-  // The same where moments press, pull and shear the skin too; `skin` is used with moments alone.
+  // The same with the skin stress of moments added; `skin` is used only with moments.
   template <bool moments, class Real>
   CohesiveResponse<Real> advance_under(const SkinStress<Real> &skin, CohesiveState<Real> &s,
                                        const CohesiveGeometry<Real> &g, const CohesiveMotion<Real> &m) const;
-  // The same for what has no damage and gets none in this step: most at most times. False where one of a SIMD
-  // vector has some, or may get it: then nothing is told, and the state is to be thrown away. `sound_members`
-  // of the state, in the order of its description, says which of them it changes; the rarely changed ones
-  // only where `yielded`.
+  // The same for bonds without damage that get none in this step: most bonds at most times. Returns false if
+  // one bond of a SIMD vector has damage or may get it; then `r` is not set and the state must be discarded.
+  // `sound_members`, in the order of State::describe, gives the members of the state that this call changes;
+  // the rarely changed ones only where `yielded`.
   static constexpr bool quick_while_sound = true;
   static constexpr Changes sound_members[] = {Changes::rarely, Changes::never,  Changes::never,
                                               Changes::never,  Changes::always, Changes::always};
@@ -122,35 +121,35 @@ struct ElastoDamagePlastic {
                                    bool &yielded) const {
     return advance_sound<false>(SkinStress<Real>{}, s, g, m, r, yielded);
   }
-  // What has failed stands behind the others: SIMD vectors are then of one kind.
+  // Failed bonds are stored behind the others, so that all bonds of a SIMD vector are of one kind.
   static constexpr bool failed_rows_last = true;
-  // Positive of what has failed, else 0.
+  // Returns a positive value for a failed bond, otherwise 0.
   template <class Real>
   static Real failed(const CohesiveState<Real> &s) {
     const Real zero = s.tension_damage * 0.0;
     return where_positive(Real(1.0 - damage_of(s)), zero, Real(zero + 1.0));
   }
-  // Of a SIMD vector that has failed as a whole: whether all of them are apart and were before, so that
-  // nothing acts and nothing changes.
+  // For a SIMD vector of failed bonds: whether all are separated now and were before, so that no force acts
+  // and no state changes.
   template <class Real>
   bool stays_apart(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
                    const Triple<Real> &distance) const;
-  // The first of these for such a SIMD vector, torques included.
+  // The step (call operator) for such a SIMD vector, with torques.
   template <class Real>
   CohesiveResponse<Real> advance_broken(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
                                         const CohesiveMotion<Real> &m) const;
-  // Of moments what is left of them: they lose what the stress of the section loses that has lost more.
+  // Fraction of the moments that remains: the smaller one of the fractions of tension and shear.
   template <class Real>
   Real share_of_moments(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g) const {
     const Shares<Real> of = shares(s, softening(g));
     return of.tension - positive_part(Real(of.tension - of.shear));
   }
-  // What acts in a state as it is, at the distance d that it was last brought up to.
+  // The response of the given state, at the distance d of its last update.
   template <class Real>
   CohesiveResponse<Real> response(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
                                   const Triple<Real> &d) const;
-  // The same as other bonds tell it. Ratios are those of the elastic stress to the strength: 1 where damage
-  // begins, 1 + delta where it ends.
+  // The same in the form of the other bonds. Ratios are elastic stress over strength: 1 where damage begins,
+  // 1 + delta where it ends.
   BondResponse<double> bond_response(const CohesiveState<double> &s, const CohesiveGeometry<double> &g,
                                      const CohesiveMotion<double> &m) const;
   template <class Real>
@@ -159,25 +158,25 @@ struct ElastoDamagePlastic {
     const CohesiveResponse<Real> r = response(s, g, pose.distance);
     return {r.force, r.energy};
   }
-  // Of forces alone, with ratios at a skin that moments strain.
+  // Forces without moments; the ratios include the stress of moments at the skin.
   BondResponse<double> response_under(const SkinStress<double> &skin, const CohesiveState<double> &s,
                                       const CohesiveGeometry<double> &g,
                                       const CohesiveMotion<double> &m) const;
-  // J, taken by the plastic closing of a state.
+  // J, dissipated by plastic closing.
   template <class Real>
   Real plastic_work(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g) const {
     return g.area * compression.work(s.plastic) / g.normal_stiffness;
   }
 
 private:
-  // Of the tensile strength: the coupled line holds from there on. It begins with a jump, for shear then
-  // softens tension too, and what is only sheared or twisted has no normal stress but round-off of either
-  // sign.
+  // Fraction of the tensile strength above which the coupled line holds. The line begins with a jump, because
+  // shear then softens tension too; a bond that is only sheared or twisted has no normal stress except
+  // round-off of either sign.
   static constexpr double least_tension = 1e-9;
   double shear_ratio_;
-  // Pa; of what is never reached a number whose square is one too.
+  // Pa; a strength that is never reached is a number whose square is finite.
   double tensile_strength_, shear_strength_;
-  // What has broken has no stiffness, and nothing to divide by it.
+  // Avoids a division by the zero stiffness of a broken bond.
   template <class Real>
   static Real divisor(const Real &stiffness) {
     return where_positive(stiffness, stiffness, Real(stiffness * 0.0 + 1.0));
@@ -190,7 +189,7 @@ private:
   Softening<Real> softening(const CohesiveGeometry<Real> &g) const;
   template <class Real>
   struct Shares {
-    Real tension, shear, friction; // of T where it pulls, of u_s and of x
+    Real tension, shear, friction; // of T in tension, of u_s and of x
   };
   template <class Real>
   Shares<Real> shares(const CohesiveState<Real> &s, const Softening<Real> &delta) const;
@@ -198,13 +197,13 @@ private:
   static Real left(const Real &damage, const Real &delta) { // g(D)
     return (1.0 - damage) / (1.0 + delta * damage);
   }
-  // What a step does before damage is looked at: brings the state but for damage and what it takes. (Made in
-  // place: of a copy the compiler would keep all of it in memory.)
+  // The part of a step before damage: updates the state except damage and dissipated energy. (It works in
+  // place, because the compiler would keep a copy in memory.)
   template <class Real>
   struct Step {
     Real length, tension; // m; Pa
     PlaneMotion<Real> plane;
-    Triple<Real> shear_before, slider_before, slip; // m: turned alone; of the slider, lost
+    Triple<Real> shear_before, slider_before, slip; // m: after turning alone; lost by the slider
     Real yield;                                     // Pa
 
     Step(const ElastoDamagePlastic &law, CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
@@ -259,7 +258,7 @@ PLATEN_INLINE auto ElastoDamagePlastic::softening(const CohesiveGeometry<Real> &
           of(p.softening_shear, p.fracture_energy_shear, shear_strength_, Real(shear_ratio() * kn))};
 }
 
-// Damage by the stresses that would act without it.
+// Damage from the stresses that would act without damage.
 template <bool moments, class Real>
 PLATEN_INLINE void ElastoDamagePlastic::damage(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
                                                const Softening<Real> &delta, const Real &tension,
@@ -278,13 +277,13 @@ PLATEN_INLINE void ElastoDamagePlastic::damage(CohesiveState<Real> &s, const Coh
   const Real tensile = g.strength_factor * tensile_strength_;
   const Real strength = cohesion + p.friction_static * closing;
   Real used_n = opening / tensile, used_s = sliding / strength;
-  if (p.failure_line == FailureLine::coupled) { // in tension both count together; round-off is no tension
+  if (p.failure_line == FailureLine::coupled) { // in tension both add up; round-off is no tension
     const Real both = used_n + used_s, pulled = opening - least_tension * tensile;
     used_n = where_positive(pulled, both, used_n);
     used_s = where_positive(pulled, both, used_s);
   }
   const Real sound = 1.0 - larger(s.tension_damage, s.shear_damage);
-  const Real least = zero + 1e-150; // brittle, or broken long ago: damage at once, and no division by zero
+  const Real least = zero + 1e-150; // brittle, or broken earlier: full damage at once, no division by zero
   const auto grown = [&](const Real &old, const Real &used, const Real &d) {
     const Real wanted = larger(old, Real((used - 1.0) / larger(d, least)));
     return where_positive(sound, Real(one - positive_part(Real(1.0 - wanted))), old);
@@ -294,7 +293,7 @@ PLATEN_INLINE void ElastoDamagePlastic::damage(CohesiveState<Real> &s, const Coh
   s.tension_damage = dn;
 }
 
-// Of the stresses that would act without damage, those that do.
+// Fractions of the stresses without damage that still act.
 template <class Real>
 PLATEN_INLINE auto ElastoDamagePlastic::shares(const CohesiveState<Real> &s,
                                                const Softening<Real> &delta) const -> Shares<Real> {
@@ -362,9 +361,9 @@ PLATEN_INLINE CohesiveResponse<Real> ElastoDamagePlastic::advance_under(const Sk
   const Real failed_before = larger(s.tension_damage, s.shear_damage);
   damage<moments>(s, g, delta, tension, skin);
 
-  // What the step took: (F before + F now)/2 times the path, less the gain of stored energy. Of springs that
-  // lose a share only the product of both ends is left. Where tension turns to compression the mean force is
-  // off by the kink, as in any contact: that is no loss.
+  // Dissipated energy of the step: (F before + F now)/2 times the path, less the gain of stored energy. For
+  // springs that lose a fraction only the product of both ends remains. Where tension changes to compression
+  // the mean force has an error from the kink, as in any contact: that is no loss.
   const Real drawn = dot(m.travelled, plane.n);
   const Triple<Real> across = m.travelled - scale(drawn, plane.n);
   const Real tension_before =
@@ -378,14 +377,14 @@ PLATEN_INLINE CohesiveResponse<Real> ElastoDamagePlastic::advance_under(const Sk
   CohesiveResponse<Real> r = response(s, g, m.distance);
   const Real whole_now = 1.0 - larger(s.tension_damage, s.shear_damage);
   r.failed_now = where_positive(Real(1.0 - failed_before), where_positive(whole_now, zero, one), zero);
-  // What has failed has no such spring.
+  // A failed bond has no such spring.
   s.shear = {where_positive(whole_now, s.shear.x, zero), where_positive(whole_now, s.shear.y, zero),
              where_positive(whole_now, s.shear.z, zero)};
   return r;
 }
 
-// Whether any of them may have damage after this step, without a quotient; the margin makes up for its
-// round-off.
+// Whether any bond may have damage after this step, computed without a quotient; the margin covers the
+// round-off of the quotient.
 template <bool moments, class Real>
 PLATEN_INLINE bool ElastoDamagePlastic::may_be_damaged(const CohesiveState<Real> &s,
                                                        const CohesiveGeometry<Real> &g, const Real &tension,

@@ -1,4 +1,4 @@
-// The laws of friction that a platen's contacts may follow, all of a platen the same.
+// The friction laws of platen contacts; all contacts of a platen follow the same law.
 #pragma once
 
 #include <variant>
@@ -11,7 +11,7 @@ namespace platen::dem {
 
 using FrictionLaw = std::variant<CoulombFriction, SlipWeakeningFriction, VelocityWeakeningFriction>;
 
-// How friction falls from static to dynamic.
+// How friction decreases from static to dynamic.
 struct Weakening {
   enum class By { nothing, slip, velocity }; // nothing: at once where sliding begins
   By by = By::nothing;
@@ -19,7 +19,6 @@ struct Weakening {
   double slip_velocity = not_given; // m/s, > 0; by velocity
 };
 
-// Friction of a surface.
 struct SurfaceFriction {
   double friction_static = 0;          // 1, >= 0; zero: frictionless; infinity: never slides
   double friction_dynamic = not_given; // 1; not given: as the static one
@@ -61,8 +60,8 @@ inline FrictionLaw friction_law(const SurfaceFriction &f) {
   return CoulombFriction{{f.friction_static, f.dynamic()}};
 }
 
-// One step of a contact by a law that weakens; arguments as those of the laws. Not for inlining: beside it a
-// loop over constant friction would lose its registers.
+// One step of a contact by a weakening law; arguments as those of the laws. Not inlined: a loop over constant
+// friction would otherwise lose its registers.
 [[gnu::noinline]] inline CoulombFriction::Result slide_weakening(const FrictionLaw &law,
                                                                  CoulombFriction::State &state,
                                                                  const Vector3 &stretch, double normal_force,

@@ -1,5 +1,5 @@
-// Unbonded contact after Hertz, with Mindlin's tangential stiffness (no slip): Tannu 2017 (8)-(10), where (9)
-// prints the tangential for the normal overlap and (10) 1 - nu^2 for 2 - nu.
+// Unbonded Hertz contact, with Mindlin's tangential stiffness (no slip): Tannu 2017 (8)-(10), where (9)
+// misprints the tangential for the normal overlap and (10) 1 - nu^2 for 2 - nu.
 #pragma once
 
 #include <cmath>
@@ -35,7 +35,7 @@ struct HertzContact {
     return 4.0 / 3.0 * effective_modulus * std::sqrt(ri * rj / (ri + rj));
   }
   static bool follows_bonds(const ContactSettings & /*s*/) { return false; }
-  // k_t / k_n of equal materials, independent of the overlap.
+  // k_t / k_n for equal materials, independent of the overlap.
   static double tangential_ratio(const ContactSettings &s) {
     return 2 * (1 - s.poisson_ratio) / (2 - s.poisson_ratio);
   }
@@ -44,7 +44,7 @@ struct HertzContact {
     const double logarithm = portable::log(s.restitution);
     return -std::sqrt(5.0 / 6.0) * logarithm / std::sqrt(logarithm * logarithm + pi * pi);
   }
-  // For the time step: stiffness grows with the overlap; a reserve instead of a law.
+  // For the time step: stiffness grows with the overlap; a fixed reserve instead of a law.
   static double dashpot_reserve(const ContactSettings & /*s*/) { return 0.5; }
 };
 

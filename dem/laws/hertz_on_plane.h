@@ -1,7 +1,7 @@
-// A sphere pressed on a plane after Hertz, with Mindlin's tangential stiffness (no slip): N = 4/3 E* sqrt(R)
-// d^1.5, k_n = 2 E* sqrt(R d), k_t = 8 G* sqrt(R d), with 1/E* = (1 - nu^2)/E and 1/G* = (2 - nu)/G added up
-// over both sides (Johnson 1985, Contact Mechanics, 4.2.4 and 7.2.3). Holds while the contact's radius,
-// sqrt(R d), is small beside R.
+// A sphere pressed on a plane by Hertz, with Mindlin's tangential stiffness (no slip): N = 4/3 E* sqrt(R)
+// d^1.5, k_n = 2 E* sqrt(R d), k_t = 8 G* sqrt(R d), with 1/E* = (1 - nu^2)/E and 1/G* = (2 - nu)/G summed
+// over both sides (Johnson 1985, Contact Mechanics, 4.2.4 and 7.2.3). Valid while the contact radius, sqrt(R
+// d), is small against R.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,6 @@
 namespace platen::dem {
 
 struct HertzOnPlane {
-  // Of one side.
   struct Side {
     double young_modulus = std::numeric_limits<double>::infinity(); // Pa, > 0; infinite: rigid
     double poisson_ratio = 0;                                       // 1, in (-1, 1/2)
@@ -34,17 +33,17 @@ struct HertzOnPlane {
     return {modulus, 4 * shear / modulus};
   }
 
-  // Up to this share k_n c an indentation is taken out, see below: what is left is then no stiffer than
+  // Up to this value of k_n c the indentation is subtracted, see below: the result is then no stiffer than
   // twice the law.
   static constexpr double most_indentation = 0.46;
 
-  // Of the overlap (m) of a sphere of that radius (m), > 0 both. indentation (m/N): what the plane gives way
-  // elsewhere by c N, within the law's approach; the overlap is what that leaves, w - c N(w) of the law's own
-  // w. More than that of the force at which k_n c is the share above is not taken out.
+  // Response to the overlap (m) of a sphere of that radius (m), both > 0. indentation (m/N): c N is the
+  // displacement of the plane elsewhere, already part of the approach w of the law; the overlap is the rest,
+  // w - c N(w). It is subtracted only up to the force at which k_n c is the value above.
   Response operator()(double overlap, double radius, double indentation = 0) const {
     const double coefficient = 4.0 / 3.0 * modulus * std::sqrt(radius); // N/m^1.5
     if (!(indentation > 0)) return alone(coefficient, overlap);
-    const double root = most_indentation / (1.5 * coefficient * indentation);    // of the w that takes all
+    const double root = most_indentation / (1.5 * coefficient * indentation);    // of the w at that limit
     const double last = root * root, most = 2.0 / 3.0 * most_indentation * last; // m; c N there
     Response r;
     if (overlap < last - most) {
@@ -63,8 +62,8 @@ private:
     const double root = std::sqrt(w), force = coefficient * w * root;
     return {force, 1.5 * coefficient * root, 0.4 * force * w};
   }
-  // m, the w of w - a w^1.5 = overlap (a in m^-1/2) with 1.5 a sqrt(w) < 1: Newton from below, where it
-  // nears the root from one side.
+  // m, the w of w - a w^1.5 = overlap (a in m^-1/2) with 1.5 a sqrt(w) < 1: Newton's method from below, which
+  // converges from one side.
   static double own_approach(double a, double overlap) {
     constexpr int most_steps = 40;
     constexpr double enough = 4e-16;

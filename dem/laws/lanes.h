@@ -1,5 +1,5 @@
-// What a text for one number and for SIMD vectors of them asks of its type beyond arithmetic: `How` of such
-// texts. Truth is a bool here, and a mask of lanes for SIMD vectors (dem/kernels/lane_mask.inc.h).
+// Functions, beyond arithmetic, for source that serves both one number and SIMD vectors: `How` of such
+// templates. Truth is a bool here, and a mask of lanes for SIMD vectors (dem/kernels/lane_mask.inc.h).
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Closed lists of laws: what follows from the names of its laws alone. A law has a word, and Parameters that
-// describe themselves (base/describe.h).
+// Closed lists of laws: functions that follow from the list of laws alone. A law has a word, and Parameters
+// that describe themselves (base/describe.h).
 #pragma once
 
 #include <array>
@@ -20,19 +20,19 @@ struct LawList {
   using Parameters = std::variant<typename Laws::Parameters...>;
   using AllParameters = std::tuple<typename Laws::Parameters...>;
 
-  // The same list with one law more.
+  // The same list with one more law.
   template <class More>
   using With = LawList<Laws..., More>;
 
   static constexpr std::size_t size = sizeof...(Laws);
   static constexpr std::array<const char *, size> words{Laws::word...};
 
-  // f(Law *) of each law, null pointers that carry the type.
+  // Calls f(Law *) for each law, with null pointers that carry the type.
   template <class F>
   static void for_each(F &&f) {
     (f(static_cast<Laws *>(nullptr)), ...);
   }
-  // Words of the laws of which has(Law *) says yes.
+  // Words of the laws for which has(Law *) is true.
   template <class Has>
   static std::vector<std::string> words_where(const Has &has) {
     std::vector<std::string> of;
@@ -41,7 +41,7 @@ struct LawList {
     });
     return of;
   }
-  // has(Law *) of the law in this place.
+  // has(Law *) for the law at this place.
   template <class Has>
   static bool ask(std::size_t place, const Has &has) {
     std::size_t k = 0;
@@ -57,7 +57,7 @@ struct LawList {
       ++k;
     return k;
   }
-  // Those of the law in this place.
+  // Parameters of the law at this place.
   template <class Of = Parameters>
   static Of chosen(const AllParameters &all, std::size_t place) {
     Of found;
@@ -65,7 +65,7 @@ struct LawList {
     ((k++ == place ? (void)(found = std::get<typename Laws::Parameters>(all)) : void()), ...);
     return found;
   }
-  // The law of these parameters. Throws BadParameter.
+  // The law with these parameters. Throws BadParameter.
   static Law law(const Parameters &parameters) {
     Law found;
     std::size_t k = 0;

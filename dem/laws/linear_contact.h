@@ -1,4 +1,4 @@
-// Unbonded contact, linear: N = k delta (physics of LS-DYNA's discrete elements). A law is a value.
+// Linear unbonded contact: N = k delta (physics of LS-DYNA's discrete elements). A law is a value.
 #pragma once
 
 #include <cmath>

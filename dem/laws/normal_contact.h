@@ -1,5 +1,5 @@
-// The laws of pressing between grains that touch without a bond, all contacts the same. A law is a header, a
-// name in NormalContact and one in the list below.
+// Normal force laws between grains that touch without a bond, one law for all contacts. A law is a header, a
+// name in NormalContact and an entry in the list below.
 #pragma once
 
 #include <stdexcept>
@@ -15,7 +15,7 @@ template <class... Laws>
 struct NormalContactList {
   static Words<NormalContact> words() { return {{Laws::word, Laws::kind}...}; }
 
-  // f(law) of the law chosen.
+  // f(law) for the chosen law.
   template <class F>
   static auto with(NormalContact chosen, const F &f) {
     std::common_type_t<decltype(f(Laws()))...> result{};

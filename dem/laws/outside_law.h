@@ -1,6 +1,6 @@
-// A bond law of a program's own: elastic, written as those of the library are (parallel_bond.h is one), and
+// A bond law of the user's program: elastic, written like those of the library (parallel_bond.h is one), and
 // in none of its lists. The program compiles its loops from the library's source (kernels/outside_kernels.h),
-// so that they are as fast as others: a block of bonds is one call.
+// so that they are as fast as the others: a block of bonds is one call.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct OutsideLaw {
   static constexpr const char *word = "outside";
   static constexpr bool has_history = false;
   using KernelsOfSets = std::array<const kernels::BondKernels *, 3>; // in the order of InstructionSet
-  // What is asked of the law bond by bond, outside loops. `of`: the law.
+  // Functions of the law for single bonds, outside loops. `of`: the law.
   struct Calls {
     BondResponse<double> (*turning)(const void *of, const BondGeometry<double> &, const BondMotion<double> &);
     BondResponse<double> (*without_rotation)(const void *of, const BondGeometry<double> &,
@@ -36,7 +36,7 @@ struct OutsideLaw {
 
     static constexpr const char *name = "OutsideLaw";
     template <class Visitor, class Self>
-    static void describe(Visitor &&, Self &) {} // the law has refused what it cannot be when it was made
+    static void describe(Visitor &&, Self &) {} // the law has checked its parameters when it was made
   };
 
   bool needs_rotation = false, centre_to_centre = false, over_distance = false, bonds_by_range = false;
@@ -62,11 +62,11 @@ struct OutsideLaw {
   bool bends() const { return parameters.calls->bends(parameters.law.get()); }
 };
 
-// Loops over bonds of the law, of each instruction set: made by the build (platen_bond_law of CMake).
+// Loops over bonds of the law for each instruction set: made by the build (platen_bond_law of CMake).
 template <class Law>
 OutsideLaw::KernelsOfSets outside_kernels();
 
-// What ModelSettings::bond takes. The law is copied.
+// The value for ModelSettings::bond. The law is copied.
 template <class Law>
 OutsideLaw::Parameters outside_law(Law law) {
   static_assert(!Law::has_history, "a law from outside is elastic until it breaks");

@@ -1,5 +1,5 @@
-// Parallel bond (Potyondy and Cundall; Tannu 2017 with its misprints mended) in the common elastic form of
-// bond_form.h: K_s = k_s A, K_t = k_s J, the point of contact divides the distance as the radii do. For small
+// Parallel bond (Potyondy and Cundall; Tannu 2017 with its misprints corrected) in the common elastic form of
+// bond_form.h: K_s = k_s A, K_t = k_s J; the point of contact divides the distance as the radii do. For small
 // motion dF_n = k_n A dU_n, dF_s = k_s A dU_s, dM_n = k_s J dtheta_n, dM_s = k_n I dtheta_s.
 #pragma once
 
@@ -16,7 +16,7 @@ struct ParallelBond {
     double shear_strength = 0;      // Pa; 0: never breaks in shear
     double friction_angle = 0;      // phi_b, rad
     double moment_contribution = 1; // beta, 0 ... 1
-    bool moments = true;            // bending and twisting; false: spheres turn, but bonds resist neither
+    bool moments = true;            // bending and twisting; false: spheres rotate, but bonds resist neither
 
     static constexpr const char *name = "ParallelBond";
     template <class Visitor, class Self>
@@ -31,18 +31,18 @@ struct ParallelBond {
                         has_history = false, bonds_by_range = false;
 
   Parameters parameters; // as given
-  BondStrength strength; // of them
+  BondStrength strength; // from the parameters
 
   ParallelBond() : ParallelBond(Parameters()) {}
   ParallelBond(const Parameters &p) : parameters(p), strength(p) {}
 
-  // With rotation; the parameters say whether with moments.
+  // With rotation; the parameters choose whether with moments.
   BondResponse<double> operator()(const BondGeometry<double> &g, const BondMotion<double> &m) const {
     return parameters.moments ? turning<true>(g, m) : turning<false>(g, m);
   }
   template <bool moments, class Real>
   BondResponse<Real> turning(const BondGeometry<Real> &g, const BondMotion<Real> &m) const;
-  // Spheres that do not turn: axial and shear springs only.
+  // Spheres without rotation: axial and shear springs only.
   template <class Real>
   BondResponse<Real> without_rotation(const BondGeometry<Real> &g, const Triple<Real> &distance) const;
   BondStiffness stiffness(const BondGeometry<double> &g) const; // at rest

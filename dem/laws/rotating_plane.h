@@ -1,5 +1,5 @@
-// Carries a vector that lives in a contact plane (a tangential spring, a rolling moment) along with the
-// plane. One text for one contact and for SIMD vectors of them (lanes.h), which gives the same bits.
+// Carries a vector of a contact plane (a tangential spring, a rolling moment) along with the plane. The same
+// source serves one contact and SIMD vectors of contacts (lanes.h), with the same bits.
 #pragma once
 
 #include "base/portable.h"
@@ -10,11 +10,11 @@ namespace platen::dem {
 
 // The vector after the smallest rotation that takes unit normal `from` to unit normal `to` (Rodrigues'
 // formula in the form without angle). The result lies in the plane of `to` and has the length of the vector's
-// part in the old plane, both to round-off, so that history neither leaks nor grows over millions of turns.
+// part in the old plane, both to round-off, so that history neither decays nor grows over millions of turns.
 template <class How, class Real>
 PLATEN_INLINE Triple<Real> carried_with_plane(const Triple<Real> &vector, const Triple<Real> &from,
                                               const Triple<Real> &to) {
-  // Normals that point against each other have no smallest rotation: the vector is kept where it is.
+  // Opposite normals have no smallest rotation: the vector is kept as it is.
   constexpr double opposite = -1.0 + 1e-12;
   const Triple<Real> flat = vector - scale(dot(vector, from), from), axis = cross(from, to);
   const Real cosine = dot(from, to);
@@ -32,10 +32,10 @@ inline Vector3 carry_with_plane(const Vector3 &vector, const Vector3 &from, cons
   return vector_of(carried_with_plane<OfScalars>(triple_of(vector), triple_of(from), triple_of(to)));
 }
 
-// rad, of a step: below it the first terms of the series are sine and cosine to the last bit.
+// rad per step: below it the first terms of the series are sine and cosine to the last bit.
 constexpr double spin_of_a_step = 1e-4;
 
-// The vector after the plane has spun about its unit normal by `angle` (rad), smaller than that.
+// The vector after a spin of the plane about its unit normal by `angle` (rad), smaller than that.
 template <class How, class Real>
 PLATEN_INLINE Triple<Real> spun_a_little(const Triple<Real> &vector, const Triple<Real> &normal,
                                          const Real &angle) {
@@ -45,7 +45,7 @@ PLATEN_INLINE Triple<Real> spun_a_little(const Triple<Real> &vector, const Tripl
   return choose<How>(How::above(How::magnitude(angle), Real(0.0)), spun, vector);
 }
 
-// The same by any angle, exact.
+// The same by any angle, exactly.
 inline Vector3 spin_in_plane(const Vector3 &vector, const Vector3 &normal, double angle) {
   if (std::abs(angle) < spin_of_a_step)
     return vector_of(spun_a_little<OfScalars>(triple_of(vector), triple_of(normal), angle));

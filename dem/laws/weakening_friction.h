@@ -1,4 +1,4 @@
-// Friction that falls from a static to a dynamic coefficient as a contact slides. Laws are values:
+// Friction that decreases from a static to a dynamic coefficient as a contact slides. Laws are values:
 // parameters, state, one call operator. Signs, spring and dissipated work are those of coulomb_friction.h.
 #pragma once
 
@@ -9,11 +9,11 @@
 
 namespace platen::dem {
 
-// mu(s) = mu_d + (mu_s - mu_d) s_0 / (s_0 + s), s the path slid since the contact closed: no rest heals it
-// (the form that Cusatis et al. 2011 use for platens of concrete specimens). s_0 is the slip that takes half
-// of the difference. The limit holds at the end of the step, from a quadratic equation, so that the
-// dissipated work is that of mu(s) N over s to second order in the step. Where the limit falls more steeply
-// than the spring, (mu_s - mu_d) N s_0 > k_t (s_0 + s)^2, the contact jumps to where both agree again.
+// mu(s) = mu_d + (mu_s - mu_d) s_0 / (s_0 + s), s the slip path since the contact closed: no recovery at rest
+// (the form of Cusatis et al. 2011 for platens of concrete specimens). s_0: slip at half of the difference.
+// The limit holds at the end of the step, from a quadratic equation, so that the dissipated work is that of
+// mu(s) N over s to second order in the step. Where the limit falls more steeply than the spring, (mu_s -
+// mu_d) N s_0 > k_t (s_0 + s)^2, the contact jumps to the point where both agree again.
 struct SlipWeakeningFriction {
   struct Parameters {
     double friction_static = std::numeric_limits<double>::quiet_NaN();  // 1, >= friction_dynamic
@@ -43,7 +43,7 @@ struct SlipWeakeningFriction {
   }
 
 private:
-  // d of  size - k d = mu(s + d) N, that is  k d^2 - b d - c = 0  with c > 0: one positive root.
+  // The d of  size - k d = mu(s + d) N, that is  k d^2 - b d - c = 0  with c > 0: one positive root.
   double slip_of_step(double s, double size, double normal_force, double k) const {
     const double s_0 = parameters.slip_length, over = size - parameters.friction_dynamic * normal_force,
                  fall = (parameters.friction_static - parameters.friction_dynamic) * normal_force;
@@ -53,9 +53,9 @@ private:
   }
 };
 
-// mu(v) = mu_d + (mu_s - mu_d) exp(-v / v_0), v the speed of one side of the contact past the other over the
-// step (Stribeck's fall in the exponential form of Andersson et al. 2007 with exponent 1, without the viscous
-// rise). At rest the static coefficient is back at once.
+// mu(v) = mu_d + (mu_s - mu_d) exp(-v / v_0), v the relative speed of the two sides over the step (Stribeck's
+// decrease in the exponential form of Andersson et al. 2007 with exponent 1, without the viscous rise). At
+// rest the static coefficient returns at once.
 struct VelocityWeakeningFriction {
   struct Parameters {
     double friction_static = std::numeric_limits<double>::quiet_NaN();  // 1, >= friction_dynamic
@@ -72,7 +72,7 @@ struct VelocityWeakeningFriction {
                                              portable::exp(-speed / parameters.slip_velocity);
   }
 
-  // dt: s, the time that the stretch took.
+  // dt: s, duration of the stretch.
   Result operator()(State &state, const Vector3 &stretch, double normal_force, double tangential_stiffness,
                     double dt) const {
     const Vector3 trial = state.spring + tangential_stiffness * stretch;

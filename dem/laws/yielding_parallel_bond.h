@@ -1,15 +1,15 @@
-// Parallel bond that yields in compression: brittle in tension and shear as parallel_bond.h, whose shear,
-// bending and twisting it has in total form, with a plastic closing along straight branches
-// (compression_branches.h). A bond that has broken stays as the contact of its pair: with the same zero, so
-// that its compression goes on yielding, with what is left of its shear force up to Coulomb's limit, and
+// Parallel bond that yields in compression: brittle in tension and shear as parallel_bond.h, with the same
+// shear, bending and twisting in total form, and with a plastic closing along straight branches
+// (compression_branches.h). A broken bond remains as the contact of its pair: with the same zero of overlap,
+// so that its compression continues to yield, with the rest of its shear force up to Coulomb's limit, and
 // without moments or tension.
 //
 // In stresses: k_n = G_b/|D| per area, q = k_n p the plastic closing, u_s the slip at the point of contact:
 //   T = k_n (|d| - |D|) + q                          > 0: tension
 //   q >= e - envelope(e), e = -k_n (|d| - |D|)       also once it has broken
-//   breaks where T + beta |M_b| R_b/I >= sigma_c, or |F_s|/A + beta |M_t| R_b/J >= tau_c + tan(phi_b) max(-T,
-//   0) whole:  F_n = A T, F_s = r k_n A u_s, moments k_n I and r k_n J times the relative rotation broken:
-//   F_n = A min(T, 0), F_s = r k_n A x with |r k_n x| <= mu max(-T, 0), x at first u_s
+//   breaks: T + beta |M_b| R_b/I >= sigma_c or |F_s|/A + beta |M_t| R_b/J >= tau_c + tan(phi_b) max(-T, 0)
+//   intact: F_n = A T, F_s = r k_n A u_s, moments k_n I and r k_n J times the relative rotation
+//   broken: F_n = A min(T, 0), F_s = r k_n A x with |r k_n x| <= mu max(-T, 0), x at first u_s
 #pragma once
 
 #include <vector>
@@ -23,7 +23,7 @@ namespace platen::dem {
 struct YieldingParallelBond {
   static constexpr const char *word = "yielding parallel bond";
   struct Parameters : ParallelBond::Parameters {
-    // Pa, and modulus over that of the branch that begins there. Up to three; none: no yield.
+    // Pa, and E_0 / E of the branch that begins there. Up to three; empty: no yield.
     std::vector<double> compression_limits, compression_slopes;
 
     static constexpr const char *name = "YieldingParallelBond";
@@ -37,23 +37,23 @@ struct YieldingParallelBond {
                         has_history = true, bonds_by_range = false, needs_orientations = true;
 
   YieldingParallelBond() : YieldingParallelBond(Parameters()) {}
-  // Throws BadParameter where the branches are no three, or bend up again.
+  // Throws BadParameter if there are more than three branches, or if compression would grow stiffer again.
   YieldingParallelBond(const Parameters &p)
       : parameters(p),
         strength(p),
         compression(Parameters::name, p.compression_limits, p.compression_slopes) {}
 
   Parameters parameters; // as given
-  BondStrength strength; // of them
+  BondStrength strength; // from the parameters
   CompressionBranches compression;
-  double grain_friction = 0; // mu, of what has broken: that of contacts between grains
+  double grain_friction = 0; // mu of broken bonds: that of contacts between grains
 
   template <class Real>
   struct State {
     Real plastic;        // q, Pa, >= 0
-    Real broken;         // 0: whole; 1: broken in tension, 2: in shear
-    Real dissipated;     // J: at the break until it is told, by friction from then on
-    Triple<Real> slider; // x, m; of a broken one
+    Real broken;         // 0: intact; 1: broken in tension, 2: in shear
+    Real dissipated;     // J: at the break until it is reported, by friction afterwards
+    Triple<Real> slider; // x, m; of a broken bond
 
     template <class Visitor, class... States>
     static void describe(Visitor &&v, States &...s) {
@@ -68,7 +68,7 @@ struct YieldingParallelBond {
     const Real zero = s.broken * 0.0;
     return where_positive(s.broken, Real(zero + 1.0), zero);
   }
-  // Positive of what has failed, else 0.
+  // Returns a positive value for a failed bond, otherwise 0.
   template <class Real>
   static Real failed(const State<Real> &s) {
     return s.broken;
@@ -80,42 +80,42 @@ struct YieldingParallelBond {
     return ParallelBond(parameters).stiffness(g);
   }
 
-  // Brings the state up to date and tells what acts.
+  // Updates the state and returns the response.
   template <class Real>
   CohesiveResponse<Real> operator()(State<Real> &s, const CohesiveGeometry<Real> &g,
                                     const CohesiveMotion<Real> &m) const;
-  // The same for what is whole and stays so, from its pose alone: most bonds at most times. False where one
-  // of a SIMD vector is broken, or breaks in this step: then nothing is changed or told. `pose()` is a
-  // BondMotion at `distance`; it is asked for once the yield is known, because not all of it fits the
-  // registers.
+  // The same, from the pose alone, for bonds that are intact and stay intact: most bonds at most times.
+  // Returns false if one bond of a SIMD vector is broken or breaks in this step; then nothing is changed or
+  // returned. `pose()` gives a BondMotion at `distance`; it is called after the yield is known, because the
+  // registers cannot hold all of it.
   static constexpr bool quick_while_whole = true;
-  static constexpr std::size_t scalars_while_whole = 1; // of its State, from the first: those that it changes
+  static constexpr std::size_t scalars_while_whole = 1; // number of first members of State that it changes
   template <class Real, class Pose>
   bool advance_whole(State<Real> &s, const CohesiveGeometry<Real> &g, const Triple<Real> &distance,
                      const Pose &pose, CohesiveResponse<Real> &r, bool &changed) const;
-  // What has broken stands behind what is whole: SIMD vectors are then of one kind.
+  // Broken bonds are stored behind intact ones, so that all bonds of a SIMD vector are of one kind.
   static constexpr bool failed_rows_last = true;
-  // Of a SIMD vector that is broken as a whole: whether all of them are apart and were before, so that
-  // nothing acts and nothing changes.
+  // For a SIMD vector of broken bonds: whether all are separated now and were before, so that no force acts
+  // and no state changes.
   template <class Real>
   bool stays_apart(const State<Real> &s, const CohesiveGeometry<Real> &g, const Triple<Real> &distance) const;
-  // The first of these for such a SIMD vector, which needs no orientations.
+  // The step (call operator) for such a SIMD vector; it needs no orientations.
   template <class Real>
   CohesiveResponse<Real> advance_broken(State<Real> &s, const CohesiveGeometry<Real> &g,
                                         const CohesiveMotion<Real> &m) const;
-  // How much more the motion from a state to the present is resisted when it goes on: that of the branch
-  // where it yields, nothing of what is apart, nothing in shear of what slides (what friction does across its
-  // direction, and its growth with the pressure, which has no symmetry, are left out). N/m, N m.
+  // Tangent stiffness (N/m, N m) if the motion from a state to the present continues: that of the branch
+  // where the bond yields, 0 for a separated pair, 0 in shear for a sliding one. The friction across the slip
+  // direction and its unsymmetric growth with the pressure are left out.
   BondStiffness tangent(State<double> from, const CohesiveGeometry<double> &g,
                         const CohesiveMotion<double> &m) const;
-  // What acts in a state as it is.
+  // The response of the given state.
   BondResponse<double> bond_response(const State<double> &s, const CohesiveGeometry<double> &g,
                                      const CohesiveMotion<double> &m) const;
-  // The same in short: force and stored energy alone.
+  // The same, force and stored energy alone.
   template <class Real>
   HeldByBond<Real> held(const State<Real> &s, const CohesiveGeometry<Real> &g,
                         const BondMotion<Real> &pose) const;
-  // J, taken by the plastic closing of a state.
+  // J, dissipated by plastic closing.
   template <class Real>
   Real plastic_work(const State<Real> &s, const CohesiveGeometry<Real> &g) const {
     return g.area * compression.work(s.plastic) / g.normal_stiffness;
@@ -136,7 +136,7 @@ private:
   static void tell_whole(const BondResponse<Real> &bond, const Real &tension, CohesiveResponse<Real> &r);
 };
 
-// As ParallelBond::turning, but for what has yielded.
+// As ParallelBond::turning, with the force of the plastic closing added.
 template <class Real>
 PLATEN_INLINE BondResponse<Real> YieldingParallelBond::whole(const Real &plastic,
                                                              const CohesiveGeometry<Real> &g,
@@ -151,7 +151,7 @@ PLATEN_INLINE BondResponse<Real> YieldingParallelBond::whole(const Real &plastic
   if (p.moments)
     bend_and_twist(r, e, Real(0.25 * g.radius * g.radius * area_stiffness), 2.0 * p.stiffness_ratio - 1.0,
                    pose);
-  const Real yielded = g.area * plastic; // N, on top of what the stretch would do
+  const Real yielded = g.area * plastic; // N, added to the force of the stretch
   r.force = r.force + scale(Real(yielded * e.length * e.per_square), pose.distance);
   r.energy = r.energy + yielded * (e.stretch + 0.5 * plastic / kn);
   r.normal_force = r.normal_force + yielded;
@@ -193,7 +193,7 @@ PLATEN_INLINE void YieldingParallelBond::tell_whole(const BondResponse<Real> &bo
   r.failed_now = tension * 0.0;
 }
 
-// 1 where its strength is reached, else 0.
+// 1 where the strength is reached, otherwise 0.
 template <class Real>
 PLATEN_INLINE Real YieldingParallelBond::reached(const BondResponse<Real> &bond) {
   const Real zero = bond.excess * 0.0;
@@ -238,12 +238,12 @@ PLATEN_INLINE CohesiveResponse<Real> YieldingParallelBond::operator()(State<Real
   const Real breaking = where_positive(was_broken, zero, reached(bond));
   if (!any_positive(Real(was_broken + breaking))) return r;
 
-  // Which has broken in this step, and how.
+  // Bonds that break in this step, and their mode.
   const Real mode = where_positive(Real(bond.shear_ratio - bond.tension_ratio), Real(one + 1.0), one);
   const Real breaks = breaking * mode;
   s.broken = s.broken + breaks;
 
-  // A broken one slides from where it was, or from the slip that it broke with.
+  // A broken bond slides from its last spring, or from its slip at the break.
   PlaneMotion<Real> plane(m, length);
   plane.take_from_the_middle(m.moved);
   const auto choose = [](const Real &x, const Triple<Real> &a, const Triple<Real> &b) {
@@ -258,8 +258,8 @@ PLATEN_INLINE CohesiveResponse<Real> YieldingParallelBond::operator()(State<Real
   s.slider = scale(Real(1.0 - let_slip), spring);
   const BondResponse<Real> contact = broken(s, g, m.distance);
 
-  // Friction: (F before + F now)/2 times the slip. A break: what is no longer stored, less half of what the
-  // force that is gone would have taken in the step, by the trapezoid over the drift.
+  // Friction: (F before + F now)/2 times the slip. A break: the loss of stored energy, less half of the work
+  // of the lost force in the step, by the trapezoidal rule over the drift.
   const Triple<Real> before = carried - plane.moved;
   const Real rubbed = 0.5 * g.area * ks * dot(before + s.slider, scale(let_slip, spring));
   const auto taken = [&](const BondResponse<Real> &by) { // J

@@ -38,7 +38,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double nearly = 1e-9;              // of a bin
 constexpr double decade_of_energy = 1 / 1.5; // in magnitudes
 
-// Number of the fullest bin; of several the lowest.
+// Number of the fullest bin; the lowest of several.
 double mode(const std::vector<double> &sorted, double bin) {
   double best = std::floor(sorted.front() / bin), here = best;
   std::size_t most = 0, count = 0;
@@ -51,7 +51,7 @@ double mode(const std::vector<double> &sorted, double bin) {
   return best;
 }
 
-// Of a catalogue by size, those of a range.
+// The events of a range of magnitudes, in a sorted catalogue.
 struct Magnitudes {
   std::vector<double>::const_iterator first, last;
   double limit, upper;
@@ -65,7 +65,7 @@ struct Magnitudes {
   }
 };
 
-// ln(10) b of a range with an upper end, by halving; 0 where the events are not more frequent below.
+// ln(10) b of a range with an upper end, by bisection; 0 if smaller events are not more frequent.
 double decay_between(double mean, double length) {
   if (!(mean > 0 && mean < 0.5 * length)) return 0;
   double low = 0, high = 1 / mean; // without an upper end it would be 1 / mean
@@ -96,8 +96,8 @@ BValue fit(const Magnitudes &range) {
   return v;
 }
 
-// The largest distance between the shares of events below a magnitude and of the law that is passed by a
-// tenth of samples of the law (Stephens 1974, Table 1.1: exponential, scale unknown).
+// Allowed distance between the fractions of events below a magnitude and those of the law: a tenth of samples
+// of the law exceed it (Stephens 1974, Table 1.1: exponential, scale unknown).
 double distance_allowed(double n) {
   const double root = std::sqrt(n);
   return 0.990 / (root + 0.26 + 0.5 / root) + 0.2 / n;
@@ -142,7 +142,7 @@ std::vector<AcousticEvent> gather_events(std::vector<CrackPulse> cracks, const E
   std::vector<AcousticEvent> events;
   for (const std::vector<int> &members : sets.all())
     events.push_back(event_of(cracks, members));
-  return events; // a set is named by its first crack, so these are in order
+  return events; // a set is named by its first crack, so events are in order
 }
 
 BValue b_value(const std::vector<double> &magnitudes, const BValueRules &rules) {
@@ -165,7 +165,7 @@ BValue b_value(const std::vector<double> &magnitudes, const BValueRules &rules) 
     const double limit = start + k * rules.bin;
     const auto first = from(limit);
     if (static_cast<double>(sorted.end() - first) <= most) break;
-    // Without an end, then up to the largest event, then a bin less at a time.
+    // First without an upper end, then up to the largest event, then one bin less at a time.
     double upper = infinite;
     for (int step = 0;; ++step) {
       const auto last = step < 2 ? sorted.end() : from(upper);

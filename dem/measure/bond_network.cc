@@ -73,7 +73,7 @@ EnergyShares energy_shares(const Particles &p, const Bonds &b) {
 }
 
 NetworkModuli network_moduli(const Bonds &bonds, double volume) {
-  // The mean ratio k = K_s / (k_n A) by differences from the first, which are round-off where a law has one
+  // The mean ratio k = K_s / (k_n A) from differences to the first, which are round-off if a law has one
   // ratio.
   double axial = 0, difference = 0, first = 0;
   for (std::size_t row = 0; row < bonds.size(); ++row) {
@@ -93,7 +93,7 @@ NetworkModuli network_moduli(const Bonds &bonds, double volume) {
 
 std::array<double, 3> affine_moduli(const Bonds &bonds, double volume) {
   // C_aabb = sum of l^2 ((K_n - K_s) n_a^2 n_b^2 + K_s n_a^2 [a = b]) / V: strains along the axes move the
-  // end of a bond by l e_a n_a. Rotations are none: the strain has none.
+  // end of a bond by l e_a n_a. Rotations are zero, as the strain has none.
   std::array<std::array<double, 3>, 3> c{};
   for (std::size_t row = 0; row < bonds.size(); ++row) {
     const BondStiffness s = bonds.stiffness(row);
@@ -110,7 +110,7 @@ std::array<double, 3> affine_moduli(const Bonds &bonds, double volume) {
     const int x = (a + 1) % 3, y = (a + 2) % 3;
     const double across = c[x][x] * c[y][y] - c[x][y] * c[x][y];
     moduli[a] = c[a][a];
-    // Where nothing resists strains across, they cost and give nothing.
+    // If nothing resists lateral strains, they have no effect.
     if (across > round_off_of_determinant * c[x][x] * c[y][y])
       moduli[a] -= (c[a][x] * (c[y][y] * c[a][x] - c[x][y] * c[a][y]) +
                     c[a][y] * (c[x][x] * c[a][y] - c[x][y] * c[a][x])) /
@@ -123,7 +123,7 @@ Gyration mass_gyration(const Particles &p, double low, double high) {
   Moments m;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const Vector3 &x = p.reference_position[i];
-    // A sphere's mass lies R^2 / 5 from its centre in each direction, in the mean of squares.
+    // The mean square distance of a sphere's mass from its centre is R^2 / 5 in each direction.
     if (x.z >= low && x.z <= high) m.add(p.mass[i], x.x, x.y, 0.2 * p.radius[i] * p.radius[i]);
   }
   return m.gyration();

@@ -9,11 +9,11 @@
 namespace platen::dem {
 namespace {
 
-// What a sphere counts at most, of the median's.
+// Largest value of a sphere, in medians.
 constexpr double most_of_median = 3;
 
 struct FromAxis {
-  double distance = 0, depth = 0; // m, of a centre: from the axis or middle plane; of it below the surface
+  double distance = 0, depth = 0; // m, of a centre: from the axis or middle plane; below the surface
   Vector3 outward{};
 };
 

@@ -1,4 +1,4 @@
-// What a chain around a specimen would read.
+// Strain of the circumference, as a chain around a specimen measures it.
 #pragma once
 
 #include <vector>
@@ -9,21 +9,21 @@
 
 namespace platen::dem {
 
-// Mean over the spheres of the lateral surface in the middle half of the height of what each has moved
-// outwards, over its distance from the axis (of a box: from the middle plane of its side): the strain of the
-// circumference. None counts more than three times the median: pieces that fly off do not go on widening it.
-// The surface is what lies within a mean diameter of it; spheres that never had a bond are passed over.
+// Mean over the spheres of the lateral surface in the middle half of the height: outward displacement over
+// the distance from the axis (for a box: from the middle plane of its side). Each value is limited to three
+// times the median, so that ejected pieces do not widen it further. Surface spheres lie within a mean
+// diameter of the surface; spheres that never had a bond are skipped.
 class Circumference {
 public:
-  // The same whenever it is made, as Gauge. `bonds` may be null.
+  // Gives the same object at any time of the run, as Gauge. `bonds` may be null.
   Circumference(const Particles &particles, const Shape &shape, const Bonds *bonds);
-  double strain(const Particles &particles) const; // positive where it widens; NaN without a sphere
+  double strain(const Particles &particles) const; // positive if it widens; NaN without spheres
   std::size_t size() const { return rows_.size(); }
   const std::vector<int> &rows() const { return rows_; } // ascending
 
 private:
   std::vector<int> rows_;
-  std::vector<Vector3> outward_; // over the distance, 1/m
+  std::vector<Vector3> outward_; // divided by the distance, 1/m
   mutable std::vector<double> strains_;
 };
 

@@ -1,4 +1,4 @@
-// A circular cone, by which dead zones are judged.
+// A circular cone, with which dead zones are compared.
 #pragma once
 
 #include <cmath>
@@ -7,13 +7,13 @@
 
 namespace platen::dem {
 
-// A cone that stands on the plane z = 0 with its apex above.
+// A cone on the plane z = 0 with its apex above.
 struct Cone {
   Vector3 apex;           // m
   Vector3 axis{0, 0, -1}; // 1, from the apex towards the base
   double half_angle = 0;  // rad, axis to flank
 
-  // m, to the flank of the unbounded cone, positive outside; of a point beyond the apex too.
+  // m, distance to the flank of the unbounded cone, positive outside; also valid beyond the apex.
   double distance(const Vector3 &point) const {
     const Vector3 w = point - apex;
     const double depth = dot(w, axis);

@@ -38,13 +38,13 @@ CrackPlane plane_through(const std::vector<int> &members, const std::vector<Vect
   return plane;
 }
 
-// Shares of broken bonds around one, below which it is left out: in the first pass and in the next ones.
+// Fractions of broken bonds around one, below which it is left out: in the first pass and in the next ones.
 constexpr std::array<double, 5> least_damage{0, 0.5, 0.6, 0.7, 0.8};
 
 struct Midpoints {
   std::vector<Vector3> at;     // m
   std::vector<IndexPair> near; // of broken bonds
-  std::vector<double> damage;  // share of broken bonds around each, itself counted
+  std::vector<double> damage;  // fraction of broken bonds around each, itself included
 };
 
 Midpoints midpoints(const Particles &p, const Bonds &b, double reach) {

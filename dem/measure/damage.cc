@@ -13,7 +13,7 @@ double half_width(const Shape &shape) {
   return shape.kind == ShapeKind::cylinder ? shape.radius : 0.5 * std::min(shape.width_x, shape.width_y);
 }
 
-// Distance from the axis: of a circle, or of the square that the box is.
+// Distance from the axis: of the circle, or of the square for a box, through x.
 double from_axis(const Vector3 &x, const Shape &shape) {
   if (shape.kind == ShapeKind::cylinder) return std::hypot(x.x, x.y);
   return std::max(std::abs(x.x), std::abs(x.y));

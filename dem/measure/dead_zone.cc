@@ -21,7 +21,7 @@ std::vector<IndexPair> neighbours(const Specimen &s, double gap) {
   return pairs;
 }
 
-// How far each sphere has moved beside the platen of an end.
+// Displacement of each sphere relative to the platen of an end, m.
 std::vector<double> beside(const Specimen &s, const MotionAfterPeak &motion, End end) {
   const PlatenMotion &platen = motion.platens[end];
   const Vector3 middle{0, 0, end == top_end ? s.shape.height : 0};
@@ -31,7 +31,7 @@ std::vector<double> beside(const Specimen &s, const MotionAfterPeak &motion, End
   return moved;
 }
 
-// Of the dead, those that hang on the platen by dead neighbours.
+// The dead spheres that are connected to the platen by dead neighbours.
 std::vector<char> on_platen(const Specimen &s, const std::vector<char> &dead,
                             const std::vector<IndexPair> &pairs, End end, double margin) {
   DisjointSets sets(s.size());

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double full = 0.95; // r over Rc from which the rim cuts a section
 constexpr std::size_t least_bins = 3;
-constexpr std::size_t few_bins = 8; // fewer do not tell a dome from a cone: they are halved for that
+constexpr std::size_t few_bins = 8; // fewer do not distinguish a dome from a cone: they are halved for that
 
 // A sphere of the specimen, z upwards from the end plane, and whether it is dead.
 struct LabelledPoint {
@@ -20,11 +20,11 @@ struct LabelledPoint {
   bool inside = false;
 };
 
-// What of a bin of height is dead. Spheres count where their centres are.
+// The dead part of a bin of height. Spheres count where their centres are.
 struct Section {
   double all = 0, volume = 0;    // m^3
   double height = 0;             // m, mean of all its spheres
-  double x = 0, y = 0;           // m, centre of what is dead
+  double x = 0, y = 0;           // m, centre of the dead part
   double xx = 0, yy = 0, xy = 0; // m^2, scatter about it
   double share() const { return all > 0 ? volume / all : 0; }
   double roundness() const { // of its second moments
@@ -87,9 +87,9 @@ Line flank(const std::vector<Section> &bins, std::size_t from, std::size_t to) {
   return line_through(bins, from, to, equivalent_radius, [](const Section &) { return 1.0; });
 }
 
-// Bins [from, to) of a flank: up to the last before the tip, and of those that the rim cuts the last alone.
+// Bins [from, to) of a flank up to the tip: of those that the rim cuts only the last, or more to have three.
 struct Span {
-  std::size_t from = 0, to = 0, whole = 0; // `whole`: how many the rim cuts
+  std::size_t from = 0, to = 0, whole = 0; // `whole`: number of bins that the rim cuts
 };
 Span span_of_flank(const std::vector<Section> &bins, double tip) {
   Span s;
@@ -101,13 +101,13 @@ Span span_of_flank(const std::vector<Section> &bins, double tip) {
   return s;
 }
 
-// Slope of the lower half over that of the upper; the two share a bin, or two where their number is even.
+// Slope of the lower half over that of the upper; the halves have one bin in common, or two if n is even.
 double straightness(const std::vector<Section> &bins, const Span &span) {
   const auto [from, to, whole] = span;
   const std::size_t n = to - from;
   const double lower = -flank(bins, from, from + n / 2 + 1).slope,
                upper = -flank(bins, from + (n - 1) / 2, to).slope;
-  return upper > 0 ? std::clamp(lower / upper, 0.0, 1.0) : 1; // a finger on top is the overlap's affair
+  return upper > 0 ? std::clamp(lower / upper, 0.0, 1.0) : 1; // the overlap judges a thin top
 }
 
 double roundness(const std::vector<Section> &bins, std::size_t from, std::size_t to) {

@@ -1,4 +1,4 @@
-// The shape of a dead zone: its sections up from the platen, and the cone that they come nearest to.
+// The shape of a dead zone: its sections from the platen on, and the nearest cone.
 #pragma once
 
 #include <vector>

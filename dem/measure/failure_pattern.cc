@@ -13,18 +13,18 @@ constexpr double held_end = 0.25;           // spread
 constexpr double most_of_it = 0.5;          // of all broken bonds
 constexpr double largest_of_shear = 1.13;   // rad: 65 degrees
 constexpr double least_broken_around = 0.1; // of the bonds that are not within dead zones
-constexpr double as_good_as_whole = 0.02;   // broken share
+constexpr double as_good_as_whole = 0.02;   // fraction of broken bonds
 
-// Comparisons are false where a measure is not known (NaN), and quiet about it.
-// A plane through the whole specimen and nearly nothing beside it.
+// Comparisons are false if a measure is not known (NaN), without a floating-point exception.
+// A plane through the whole specimen with at least half of all broken bonds.
 bool one_plane(const FailureMeasures &m) {
   return m.planes.count > 0 && std::isgreaterequal(m.planes.largest.bonds, most_of_it * m.planes.broken) &&
          std::isgreaterequal(m.planes.largest.extent, 0.9 * m.width) &&
          std::islessequal(m.planes.largest.inclination, largest_of_shear);
 }
 
-// A smooth barrel has a still zone on each platen too, as round and straight as a cone; but a cone comes off
-// by breaking what lies around it.
+// A smooth barrel also has a still zone on each platen, as round and straight as a cone; but a cone separates
+// only if the bonds around it break.
 void require_broken(std::array<DeadZone, 2> &dead, const DeadZones &zones, const Bonds &b) {
   double all = 0, broken = 0;
   for (std::size_t k = 0; k < b.initial_count(); ++k) {
@@ -40,7 +40,7 @@ void require_broken(std::array<DeadZone, 2> &dead, const DeadZones &zones, const
       zone.verdict = DeadZoneVerdict::unbroken;
 }
 
-// One of them may have lost its tip and be a dome.
+// Two cones; one of them may have lost its tip and be a dome.
 bool two_cones(const DeadZone &one, const DeadZone &other) {
   const auto dome = [](const DeadZone &d) { return d.verdict == DeadZoneVerdict::dome; };
   return (one.is_cone() && (other.is_cone() || dome(other))) || (dome(one) && other.is_cone());
@@ -81,7 +81,7 @@ FailureVerdict judge_failure(const FailureMeasures &m) {
   if (std::isgreater(m.planes.steep_share, most_of_it))
     return {FailurePattern::splitting, DecidedBy::steep_planes};
   if (m.broken_share <= as_good_as_whole) return {FailurePattern::none, DecidedBy::few_broken};
-  const bool held = std::isless(m.end_spread, held_end); // not where no skin is left to tell
+  const bool held = std::isless(m.end_spread, held_end); // false if no skin is left
   const double worse_end = m.damage.worse_end();
   if (std::isgreater(worse_end, crushed_end) && !held)
     return {FailurePattern::crushing, DecidedBy::crushed_end};
@@ -89,7 +89,7 @@ FailureVerdict judge_failure(const FailureMeasures &m) {
 }
 
 void FailureMeasures::describe(Archive &archive) {
-  const bool before_motion = archive.version(3) < 2; // older ones hold cones by damage as well
+  const bool before_motion = archive.version(3) < 2; // older ones also contain cones by damage
   archive("damage_top", damage.end_top, "1", any_value());
   archive("damage_bottom", damage.end_bottom, "1", any_value());
   archive("damage_middle", damage.middle, "1", any_value());

@@ -1,4 +1,4 @@
-// How a specimen pressed along its axis has failed, in one word, and by which measure.
+// Failure pattern of a specimen compressed along its axis, in one word, and the measure that decided it.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace platen::dem {
 
-// What the word is told from.
+// Measures from which the pattern is decided.
 struct FailureMeasures {
   DamageByRegion damage{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),
                         std::numeric_limits<double>::quiet_NaN()};
@@ -21,10 +21,10 @@ struct FailureMeasures {
   double end_spread = std::numeric_limits<double>::quiet_NaN(); // of the skin (damage.h)
   double columns = 0; // sound pieces from platen to platen, each at least a twentieth of the volume
   double broken_share = std::numeric_limits<double>::quiet_NaN(); // of all bonds
-  double width = 0, height = 0; // m, of the specimen; width of a circle as large as its section
+  double width = 0, height = 0; // m, of the specimen; width of a circle with the area of its section
   void describe(Archive &archive);
 };
-// The specimen where it was before the test.
+// The specimen at its positions before the test.
 Specimen specimen_before(const Particles &particles, const Shape &shape);
 // Without a motion there are no cones by displacement.
 FailureMeasures measure_failure(const Particles &particles, const Bonds &bonds, const Shape &shape,
@@ -39,23 +39,23 @@ inline const char *word_of(FailurePattern pattern) {
 enum class DecidedBy : std::int64_t {
   nothing,      // no rule below holds
   one_plane,    // half of all broken bonds lie in one plane that crosses the specimen
-  two_cones,    // what moves with the platens is a cone on each, one of them perhaps without its tip
+  two_cones,    // the parts that move with the platens are cones, one of them perhaps without its tip
   columns,      // two pieces or more from platen to platen
   steep_planes, // half of all broken bonds lie in planes along the axis
   few_broken,   // 2 % of the bonds at most
-  crushed_end   // the worse end has lost more than 0.4 of its bonds, and the ends were not held together
+  crushed_end   // the worse end has lost more than 0.4 of its bonds, and friction did not restrain the ends
 };
 struct FailureVerdict {
   FailurePattern pattern = FailurePattern::undecided;
   DecidedBy by = DecidedBy::nothing;
 };
 
-// The first rule that holds, in the order of DecidedBy from `one_plane` on: planes come first, for an
-// inclined one leaves a part on each platen that moves with it. The plane of `one_plane` splits where it lies
-// within 15 degrees of the axis and shears up to 65 degrees. The bound of damage of a crushed end (0.4)
-// stands between what dry and lubricated platens leave of cylinders twice as high as wide. Cubes' ends are
-// damaged under any platen: where they spread by less than a quarter of what the middle does, friction has
-// held them and they are not called crushed.
+// The first rule that holds, in the order of DecidedBy from `one_plane` on: planes come first, because an
+// inclined one leaves on each platen a part that moves with it. The plane of `one_plane` splits if it lies
+// within 15 degrees of the axis and shears up to 65 degrees. The limit of damage for a crushed end (0.4) lies
+// between the damage by dry and by lubricated platens in cylinders twice as high as wide. The ends of cubes
+// are damaged by any platen: if they spread by less than a quarter of the middle, friction has restrained
+// them and they are not called crushed.
 FailureVerdict judge_failure(const FailureMeasures &measures);
 
 } // namespace platen::dem

@@ -1,5 +1,4 @@
-// Pieces that hold together by intact bonds: all of them, and those that have stayed whole and still stand on
-// the platens.
+// Pieces connected by intact bonds: all of them, and the sound ones that still stand on the platens.
 #pragma once
 
 #include <array>
@@ -12,15 +11,15 @@
 
 namespace platen::dem {
 
-// Of the members 0 ... n - 1, each a set of its own at first. A set is named by its smallest member, so that
-// names do not depend on the order in which pairs are joined.
+// Disjoint sets of the members 0 ... n - 1, each at first a set of its own. The name of a set is its smallest
+// member, so that names do not depend on the order in which pairs are joined.
 class DisjointSets {
 public:
   explicit DisjointSets(std::size_t n);
   int name(int member);
   void join(int one, int other);
-  // Members of each set, ascending; sets by their names. Of those alone that are counted, where that is said:
-  // counted and other members must not have been joined.
+  // Members of each set, ascending; sets by their names. With `counted`, only the counted members: counted
+  // and other members must not have been joined.
   std::vector<std::vector<int>> all(const std::vector<char> &counted = {});
 
 private:
@@ -32,22 +31,22 @@ struct Fragments {
   std::vector<int> particles;   // count in each fragment
   std::vector<double> mass;     // kg
   int count = 0;                // pieces of at least two particles
-  int single = 0;               // particles that are alone
+  int single = 0;               // pieces of one particle
 };
 Fragments find_fragments(const Particles &particles, const Bonds *bonds);
 
 enum End { bottom_end = 0, top_end = 1 };
 
-// A sphere is sound that has kept `share` of its initial bonds (and had any). It stands on a platen where its
+// A sphere is sound if it had bonds and has kept a fraction `share` of them. It stands on a platen if its
 // reference surface is within `reach` mean radii of the end plane.
 struct Soundness {
   double share = 0.7; // 1
   double reach = 0.5; // mean radii
 };
 
-// Sound spheres joined by intact bonds.
+// A piece of sound spheres connected by intact bonds.
 struct SoundPiece {
-  double share = 0;                              // of the volume of all spheres that ever had a bond
+  double share = 0;                              // fraction of the volume of all spheres that ever had a bond
   std::array<bool, 2> stands_on{{false, false}}; // the platen of an End
   bool spans() const { return stands_on[bottom_end] && stands_on[top_end]; }
 };

@@ -11,7 +11,7 @@
 namespace platen::dem {
 namespace {
 
-// Mean displacement along an axis, m; NaN of no rows.
+// Mean displacement along an axis, m; NaN without rows.
 double mean_motion(const Particles &p, const std::vector<int> &rows, int axis) {
   double sum = 0;
   for (const int i : rows)
@@ -19,7 +19,7 @@ double mean_motion(const Particles &p, const std::vector<int> &rows, int axis) {
   return sum / static_cast<double>(rows.size());
 }
 
-// Rows of the lowest and the highest reference centre along an axis, of those that count; -1 where none does.
+// Rows of the lowest and the highest reference centre along an axis that count; -1 if none counts.
 template <class Counts>
 std::array<int, 2> outermost(const Particles &p, int axis, const Counts &counts) {
   std::array<int, 2> ends{-1, -1};
@@ -57,7 +57,7 @@ Gauge::Gauge(const Particles &p, const Shape &shape, const Bonds *bonds) {
   }
   const Eigen::FullPivLU<Eigen::Matrix3d> lu(moments);
   if (rows_.size() < 4 || !lu.isInvertible()) {
-    rows_.clear(); // too few particles to tell a strain
+    rows_.clear(); // too few particles for a strain
     return;
   }
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(inverse_.data()) = lu.inverse();
@@ -95,7 +95,7 @@ ExtremalPairs::ExtremalPairs(const Particles &p, const Shape &shape, const Bonds
   for (int section = 1; section <= 3; ++section) {
     const double z = 0.25 * section * shape.height;
     for (int axis = 0; axis < 2; ++axis) {
-      // A slab two spheres thick, and near the diameter, as the thesis' figure 22 shows.
+      // A slab two spheres thick, near the diameter, as in figure 22 of the thesis.
       const std::array<int, 2> ends = outermost(p, axis, [&](std::size_t i, const Vector3 &x) {
         return bonded[i] && std::abs(x.z - z) <= 2 * mean && std::abs(x[1 - axis]) <= 2 * mean;
       });

@@ -1,4 +1,4 @@
-// What an instrument on a specimen would read: strain of its middle, opening of a disc, sag of a bar.
+// Readings of instruments on a specimen: strain of its middle, opening of a disc, deflection of a bar.
 #pragma once
 
 #include <array>
@@ -15,19 +15,19 @@ struct GaugeStrain {
   double lateral() const { return 0.5 * (lateral_x + lateral_y); }
 };
 
-// 1 for each particle row that ever had a bond, broken ones included; all 1 where there never was any. What
-// sits loose between bonded spheres does not follow their strain.
+// 1 for each particle row that ever had a bond, broken ones included; all 1 if there never was a bond. Loose
+// spheres between bonded ones do not follow their strain.
 std::vector<char> ever_bonded(const Particles &particles, const Bonds *bonds);
 
-// Best-fit displacement gradient over the particles whose reference centre lies in |z - H/2| < H/4 and that
-// were bonded once: least squares of the displacement on the reference position, less noisy than pairs of
-// single particles.
+// Best-fit displacement gradient over the particles with reference centre in |z - H/2| < H/4 that ever had a
+// bond: least squares of the displacement on the reference position, less noisy than pairs of single
+// particles.
 class Gauge {
 public:
-  // The same whenever it is made: from reference positions and the record of all bonds. `bonds` may be null.
+  // Gives the same object at any time: uses reference positions and the record of all bonds (may be null).
   Gauge(const Particles &particles, const Shape &shape, const Bonds *bonds);
   GaugeStrain strain(const Particles &particles) const;
-  // Of displacements (m, one per particle row) instead of where the particles are.
+  // For given displacements (m, one per particle row) instead of the present positions.
   GaugeStrain strain_of(const Particles &particles, const std::vector<Vector3> &displacement) const;
   std::size_t size() const { return rows_.size(); }
 
@@ -40,10 +40,10 @@ private:
   std::array<double, 9> inverse_{}; // of the second moments of the reference positions
 };
 
-// Lateral and axial strain after Tannu 2017 (32)-(34): in three sections (a quarter, half and three
-// quarters of the height) two pairs of outermost particles, along x and along y; the mean of the six
-// distances gives the lateral strain. Axial from the topmost and the lowest particle nearest to the axis of
-// each end. Loose spheres are passed over as in Gauge.
+// Lateral and axial strain of Tannu 2017 (32)-(34): in three sections (a quarter, half and three quarters of
+// the height) two pairs of outermost particles, along x and along y; the mean of the six distances gives the
+// lateral strain. The axial strain is that between the topmost and the lowest particle nearest to the axis at
+// each end. Loose spheres are skipped as in Gauge.
 class ExtremalPairs {
 public:
   ExtremalPairs(const Particles &particles, const Shape &shape, const Bonds *bonds);
@@ -55,8 +55,8 @@ private:
   std::array<int, 2> along_{};
 };
 
-// Growth of the width across the loaded diameter: mean displacement along x of the spheres of the right rim
-// (reference x > 0.7 R, within R/4 of the centre's height) minus that of the left rim, m; NaN where a rim has
+// Increase of the width across the loaded diameter: mean displacement along x of the spheres of the right rim
+// (reference x > 0.7 R, within R/4 of the centre's height) minus that of the left rim, m; NaN if a rim has
 // none.
 class DiscOpening {
 public:
@@ -73,27 +73,27 @@ struct ThreePoints {
   double breadth = 0; // m, b, along y
   double depth = 0;   // m, d, along the load
 
-  // m^2; the load over it is the flexural stress of a slender elastic beam, 3 P L / (2 b d^2).
+  // m^2; the load divided by it is the flexural stress of a slender elastic beam, 3 P L / (2 b d^2).
   double nominal_area() const { return 2 * breadth * depth * depth / (3 * span); }
   // Deflection by shear over that by bending, Timoshenko's beam with the shear factor of Cowper (1966),
   // 10 (1 + nu) / (12 + 11 nu).
   double shear_share(double poisson_ratio) const {
     return depth * depth / (span * span) * (12 + 11 * poisson_ratio) / 5;
   }
-  // Deflection at mid-span under a flexural stress (Pa) of a beam with Young's modulus E (Pa), m:
-  // sigma L^2 / (6 E d), and the share of shear.
+  // Deflection at mid-span under a flexural stress (Pa) of a beam with Young's modulus E (Pa), m: sigma L^2 /
+  // (6 E d), plus the part by shear.
   double deflection(double stress, double young_modulus, double poisson_ratio) const {
     return stress * span * span / (6 * young_modulus * depth) * (1 + shear_share(poisson_ratio));
   }
 };
 
-// Sag of the middle of the span: mean displacement along -z of the spheres at mid-span minus that of the
-// spheres above the two supports, the mean of both sides, m. All lie at half the depth, so that what is
-// crushed at the lines of load does not enter. A place is a window of a quarter of the depth, or of four mean
-// radii where that is more, along x no wider than what of the bar lies beyond the support.
+// Deflection at mid-span: mean displacement along -z of the spheres at mid-span minus that of the spheres
+// above the two supports (mean of both sides), m. All lie at half the depth, so that crushing at the load
+// lines has no effect. Each of the three windows is as wide as a quarter of the depth, or as four mean radii
+// if that is more; along x the outer ones are no wider than the bar beyond the support.
 class Deflection {
 public:
-  // Throws std::invalid_argument where a place holds no sphere.
+  // Throws std::invalid_argument if a window contains no sphere.
   Deflection(const Particles &particles, const Shape &shape, double span);
   double operator()(const Particles &particles) const;
 

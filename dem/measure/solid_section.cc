@@ -12,18 +12,18 @@ namespace platen::dem {
 namespace {
 
 // Lengths in radii of the largest sphere.
-constexpr double hole = 1.0;     // of the ball that has room
-constexpr double at_ball = 1.3;  // from its middle to the surfaces of spheres that are at it
-constexpr double searched = 1.5; // from a surface: points further from all are of no sphere
+constexpr double hole = 1.0;     // of a ball that fits
+constexpr double at_ball = 1.3;  // from its middle to the surfaces of spheres next to it
+constexpr double searched = 1.5; // from a surface: points further from all belong to no sphere
 constexpr double step = 1.0 / 3; // between points
 constexpr double most_points = 2e6;
-// Where hardly a sphere is away from holes: a cube around each, the loosest that fills space.
+// If fewer spheres are away from holes, each fills a cube, the loosest shape that fills space.
 constexpr std::size_t fewest_away = 8;
 constexpr double loosest = 8; // volume over r^3
 
 constexpr double inside = 2; // from walls to spheres that these do not order
 
-// Of one point: the sphere whose it is, -1 none; how far it lies from that surface, m.
+// For one point: its sphere, -1 for none; its distance from the surface of that sphere, m.
 struct Owned {
   int sphere = -1;
   float excess = 0;
@@ -124,7 +124,7 @@ struct Near {
 
 std::vector<double> shares_of_layers(const Specimen &specimen, const Raster &raster, double unit) {
   const std::vector<Owned> &points = raster.points();
-  std::vector<double> part(specimen.size(), 0); // of the space, in points
+  std::vector<double> part(specimen.size(), 0); // of the space of each sphere, in points
   const std::vector<char> at_hole = raster.at_hole();
   for (const Owned &p : points)
     if (p.sphere >= 0) ++part[p.sphere];
@@ -173,7 +173,7 @@ std::vector<double> shares_of_layers(const Specimen &specimen, const Raster &ras
   return solid;
 }
 
-// The part of the shape that the outermost spheres reach across the axis; the spheres in its frame.
+// The part of the shape within the outermost spheres across the axis; the spheres in its frame.
 Specimen enveloped(const Specimen &whole, int axis) {
   Specimen s = whole;
   if (s.shape.kind == ShapeKind::box) {

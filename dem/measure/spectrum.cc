@@ -54,7 +54,7 @@ std::vector<double> smoothed(const std::vector<double> &values, std::size_t n) {
 } // namespace
 
 double passing_time(const std::vector<double> &velocity, double step, double smoothing, double expected) {
-  constexpr double reach = 0.6;   // of the smoothing, to either side
+  constexpr double reach = 0.6;   // of the smoothing, to either side of the time
   constexpr int corrections = 20; // of the guess; each leaves less than a fifth of the error
   const double none = std::numeric_limits<double>::quiet_NaN();
   const std::size_t n = static_cast<std::size_t>(smoothing / step);
@@ -65,7 +65,7 @@ double passing_time(const std::vector<double> &velocity, double step, double smo
   for (int correction = 0; correction < corrections; ++correction) {
     double sum = 0, moment = 0;
     for (std::size_t k = 0; k < smooth.size(); ++k) {
-      // Samples at the rim count by their share of the window, so that the time does not jump.
+      // Samples at the edge count by their fraction in the window, so that the time does not jump.
       const double t = static_cast<double>(k) * step - shift, rim = reach * smoothing - std::abs(t - time);
       const double share = std::min(1.0, std::max(0.0, rim / step + 0.5));
       sum += share * smooth[k];
@@ -80,7 +80,7 @@ double passing_time(const std::vector<double> &velocity, double step, double smo
 double main_frequency(const std::vector<double> &samples, double step, double low, double high) {
   if (samples.size() < 8) return std::numeric_limits<double>::quiet_NaN();
   const Transform transform(samples, step);
-  // A quarter of the spacing of lines that can be told apart: no peak is missed.
+  // A quarter of the spacing of distinguishable lines: no peak is missed.
   const double grid = 0.25 / (step * static_cast<double>(samples.size()));
   double best = low, most = 0;
   for (double f = low; f <= high; f += grid)

@@ -22,7 +22,7 @@ void add(std::array<double, 9> &s, const Vector3 &arm, const Vector3 &force) {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// The part [low, high] of the path along one axis that lies between -half and half about `centre`.
+// The part [low, high] of the path along one axis that lies between `bottom` and `top`.
 void clip(double from, double to, double bottom, double top, double &low, double &high) {
   const double path = to - from;
   if (path == 0) {
@@ -66,7 +66,7 @@ Tensor symmetric(const Eigen::Matrix3d &t) {
   return s;
 }
 
-// Components xx, yy, zz, yz, zx, xy; shears of strain twice.
+// Components xx, yy, zz, yz, zx, xy; shear strains doubled.
 Eigen::Matrix<double, 6, 1> vector(const Tensor &t, double shear) {
   Eigen::Matrix<double, 6, 1> v;
   v << t[0][0], t[1][1], t[2][2], shear * t[1][2], shear * t[0][2], shear * t[0][1];

@@ -12,16 +12,16 @@
 namespace platen::dem {
 
 // Symmetric part of (1/V) sum r (x) F, tension positive, Pa, row by row; V is the sphere's volume over the
-// packing fraction. Platen forces are not in it. `bonds`, `contacts` may be null.
+// packing fraction. Platen forces are not included. `bonds`, `contacts` may be null.
 std::vector<std::array<double, 9>> particle_stress(const Particles &particles, const Bonds *bonds,
                                                    const Contacts *contacts, double packing_fraction);
 
-// Bonds whose angle to the horizontal lies in [low, high), rad; those that have broken carry what they carry
-// as contacts where their law says so, and are left out where it does not.
+// Bonds with an angle to the horizontal in [low, high), rad; broken bonds count with their contact force if
+// their law has one, otherwise they are left out.
 struct DirectionClass {
   double low = 0, high = 0;
   int bonds = 0, pressed = 0;
-  double mean = 0;         // Pa, of all, compression positive; NaN without bonds
+  double mean = 0;         // Pa, of all bonds, compression positive; NaN without bonds
   double mean_pressed = 0; // Pa, of those in compression; NaN without
 };
 // `classes` of equal width from 0 to a right angle.
@@ -33,28 +33,27 @@ struct Region {
   Shape shape;
   double bottom = 0;
   bool holds(const Vector3 &point) const;
-  // Share of the path from `from` to `to` that lies inside.
+  // Fraction of the path from `from` to `to` that lies inside.
   double share_inside(const Vector3 &from, const Vector3 &to) const;
 };
 
 using Tensor = std::array<std::array<double, 3>, 3>;
 
 // (1/V) sum over bonds of (the part of their length inside) (x) force, symmetric part, Pa, tension positive:
-// the exact mean stress of forces that run along straight lines from centre to centre, so that no packing
-// fraction enters. For small motion (m, rad, one row per particle) from where bonds were made.
+// the exact mean stress of forces along straight lines from centre to centre, without a packing fraction. For
+// small motion (m, rad, one row per particle) from where bonds were made.
 Tensor mean_stress(const Region &region, const Particles &particles, const Bonds &bonds,
                    const std::vector<Vector3> &displacement, const std::vector<Vector3> &turn);
 
-// Symmetric part of the best-fit gradient of displacement on reference position over the particles with their
-// centres inside; not numbers where they are too few. `counted` says of each row whether it counts, for
-// loose spheres stay behind; empty: all are.
+// Symmetric part of the best-fit gradient of displacement on reference position over the particles with
+// centres inside; NaN if they are too few. `counted` selects the rows that count, because loose spheres stay
+// behind; empty: all.
 Tensor mean_strain(const Region &region, const Particles &particles, const std::vector<Vector3> &displacement,
                    const std::vector<char> &counted = {});
 
-// Isotropic moduli that are nearest to six pairs of strain and stress that span all strains: stiffness C from
-// stress = C strain, then its mean over all directions (Voigt). `anisotropy`: largest difference of a
-// component of C from the isotropic one, over the largest component. All NaN where strains are not
-// independent.
+// Isotropic moduli nearest to six pairs of strain and stress that span all strains: stiffness C from stress =
+// C strain, then its mean over all directions (Voigt). `anisotropy`: largest difference of a component of C
+// from the isotropic one, over the largest component. All NaN if strains are not independent.
 struct Moduli {
   double youngs = 0, poisson = 0; // Pa, 1
   double anisotropy = 0;

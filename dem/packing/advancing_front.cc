@@ -19,11 +19,11 @@ RadiusDistribution checked(const RadiusDistribution &radii) {
   return radii;
 }
 
-// Overlap that round-off may pretend, in radii; a hundred times below what is promised (1e-9).
+// Overlap that round-off may cause, in radii; a hundred times below the promised limit (1e-9).
 constexpr double round_off = 1e-11;
 constexpr double touching = 1e-6; // relative gap below which two placed spheres touch
-// Where only a few spheres fit, the place of the first ones decides how many: the fullest of some starts is
-// kept.
+// If only a few spheres fit, the position of the first ones determines how many: the fullest of several
+// starts is kept.
 constexpr std::size_t few = 200;
 constexpr int starts_of_few = 100;
 constexpr int orientations_tried = 1000; // of the first spheres, before one sphere fewer is tried
@@ -33,8 +33,8 @@ struct Ball {
   double radius;
 };
 
-// The two places, mirrored at the plane of the three centres, where a sphere of radius r touches a, b and c.
-// Returns false where there is none.
+// The two positions, mirrored at the plane of the three centres, of a sphere of radius r that touches a, b
+// and c. Returns false if there is none.
 bool touching_places(const Ball &a, const Ball &b, const Ball &c, double r, Vector3 place[2]) {
   const double from_a = a.radius + r, from_b = b.radius + r, from_c = c.radius + r;
   const Vector3 ab = b.centre - a.centre, ac = c.centre - a.centre;
@@ -90,12 +90,12 @@ private:
   Random random_;
   PointGrid grid_;
   std::vector<Ball> balls_;
-  std::vector<Ball> around_; // the base of the moment is not among them
+  std::vector<Ball> around_; // without the present base
   double next_radius_ = 0;
 };
 
 // A touching triangle, in a random orientation that fits, about the middle of the shape; two spheres or one
-// where three do not fit.
+// if three do not fit.
 void Front::place_first() {
   const double r[3] = {next_radius_, radii_.draw(random_), radii_.draw(random_)};
   const Vector3 middle{0, 0, 0.5 * shape_.height};
@@ -133,7 +133,7 @@ void Front::gather_around(const Ball &base) {
       around_.push_back(ball);
   });
   // Partners that touch the base come first: a place in the corner of three touching spheres is taken before
-  // one that bridges a gap. Otherwise the order is left to chance.
+  // one that bridges a gap. Otherwise the order is random.
   random_.shuffle(around_);
   std::stable_partition(around_.begin(), around_.end(), [&](const Ball &ball) {
     const double limit = (base.radius + ball.radius) * (1 + touching);
@@ -160,7 +160,7 @@ bool Front::add_touching(const Ball &base, std::size_t a, std::size_t b) {
   for (const Vector3 &p : place) {
     if (!free_at(p)) continue;
     add({p, next_radius_});
-    around_.push_back(balls_.back()); // a partner of further places, and in their way
+    around_.push_back(balls_.back()); // a partner of further places, and an obstacle to them
     next_radius_ = radii_.draw(random_);
     return true;
   }
@@ -169,7 +169,7 @@ bool Front::add_touching(const Ball &base, std::size_t a, std::size_t b) {
 
 void Front::surround(Ball base) {
   bool new_radius = true;
-  while (new_radius) { // places refused to the last radius may suit the next, and larger ones reach further
+  while (new_radius) { // places that do not fit the last radius may fit the next; larger ones reach further
     new_radius = false;
     const double radius = next_radius_;
     gather_around(base);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double overfill = 0.03;      // of volume
 constexpr double final_overlap = 5e-5; // mean, in mean radii: contacts are known, positions are not strained
-constexpr double overlap_step = 0.4;   // each stage aims at this part of the last mean overlap
+constexpr double overlap_step = 0.4;   // each stage targets this fraction of the last mean overlap
 constexpr double seating_force = 0.1; // on loose spheres, in mean contact forces: too weak to move the others
 constexpr double first_back = 2e-4; // relative growth after shrinking too far; doubled while it does not help
 constexpr double flattest = 0.5, steepest = 4.0; // bounds of the slope of mean overlap over relative size
@@ -27,7 +27,7 @@ int shrink(SoftSpheres &spheres, double at_rest, Random &random, GrowthReport &m
     made.iterations += spheres.relax(at_rest, 1e-3 * final_overlap, most_iterations);
     const Overlaps state = spheres.overlaps();
     const double scale = spheres.scale(), overlap = state.mean / scale;
-    if (overlap < 0.05 * final_overlap) { // shrunk too far: nothing is pressed any more
+    if (overlap < 0.05 * final_overlap) { // shrunk too far: nothing is compressed any more
       spheres.set_scale(scale * (1 + back));
       back *= 2, target = 0, last_overlap = 0;
       slope = std::min(1.25 * slope, steepest);

@@ -1,4 +1,4 @@
-// Cells of nearly equal size on the sphere of directions, to tell whether contacts prefer any.
+// Cells of nearly equal size on the sphere of directions, to test whether contacts prefer any.
 #pragma once
 
 #include <array>
@@ -9,13 +9,13 @@
 
 namespace platen::dem {
 
-// The 320 faces of a twice-subdivided icosahedron. They are not equal (solid angles differ by a
-// factor 1.275), so each cell carries its weight.
+// The 320 faces of a twice-subdivided icosahedron. They are not equal (solid angles differ by a factor
+// 1.275), so each cell has a weight.
 class DirectionCells {
 public:
   static constexpr std::size_t count = 320;
   DirectionCells();
-  // The cell that a direction (any length but zero) points into.
+  // The cell that contains a direction (of any length except zero).
   std::size_t cell_of(const Vector3 &direction) const;
   // Solid angle over 4 pi; the weights add up to 1.
   double weight(std::size_t cell) const { return weight_[cell]; }
@@ -34,17 +34,17 @@ private:
   std::array<std::size_t, count> opposite_;
 };
 
-// A cell and its opposite as one, for axes (contact normals), whose sign has no meaning.
+// A cell and its opposite combined, for axes (contact normals), whose sign has no meaning.
 struct AxisCell {
   Vector3 middle;       // unit vector, upward
   double weight = 0;    // solid angle of the two over 4 pi; the weights of all 160 add up to 1
-  std::size_t axes = 0; // that lie in it
+  std::size_t axes = 0; // number of axes in it
 };
-std::vector<AxisCell> count_axes(const std::vector<Vector3> &axes); // any lengths but zero
+std::vector<AxisCell> count_axes(const std::vector<Vector3> &axes); // any lengths except zero
 
-// How far counted axes are from isotropy: chi^2 = n sum (f - w)^2 / w / 159 with f the part of the n axes in
-// a merged cell and w its weight. Expect 1 with a standard deviation of .11 for independent axes; 0 for none.
-// (The measure sum (f - w)^2 / 320 that is found in print is below any bound set on it whatever the packing.)
+// Deviation of counted axes from isotropy: chi^2 = n sum (f - w)^2 / w / 159 with f the fraction of the n
+// axes in a merged cell and w its weight. Expect 1 with a standard deviation of .11 for independent axes; 0
+// without axes. (The published measure sum (f - w)^2 / 320 is below any bound set on it, for every packing.)
 double isotropy_chi_squared(const std::vector<AxisCell> &cells);
 
 } // namespace platen::dem

@@ -47,7 +47,7 @@ std::size_t guessed_number(const Shape &shape, double mean_radius, double spread
 
 double guessed_radius(const Shape &shape, std::size_t spheres, double spread) {
   double radius = 0;
-  for (int k = 0; k < 20; ++k) // the wall loss depends on the radius weakly: a fixed point
+  for (int k = 0; k < 20; ++k) // the wall loss depends only weakly on the radius: a fixed point
     radius = std::cbrt(guessed_fraction(shape, radius) * shape.volume() /
                        (4.0 / 3.0 * pi * mean_cube(spread) * static_cast<double>(spheres)));
   return std::min(radius, 0.5 * smallest_width(shape) / (1 + 0.5 * spread));
@@ -68,7 +68,7 @@ std::vector<Vector3> random_centres(const Shape &shape, const std::vector<double
 
 Specimen random_close_packing_of(const Shape &shape, std::size_t spheres, double spread, std::uint64_t seed,
                                  GrowthReport *report) {
-  require_sensible(shape, 0.25 * smallest_width(shape), spread); // before the radius is guessed
+  require_sensible(shape, 0.25 * smallest_width(shape), spread); // before the radius is estimated
   if (spheres == 0 || spheres > most_spheres)
     throw std::invalid_argument("the number of spheres of a packing must lie in [1, " +
                                 std::to_string(most_spheres) + "]");

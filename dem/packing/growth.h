@@ -8,10 +8,10 @@
 
 namespace platen::dem {
 
-// How a packing came about and how well it is jammed. Overlaps are in mean radii, pairs and walls together.
+// Generation and quality of a jammed packing. Overlaps are in mean radii, pairs and walls together.
 struct GrowthReport {
   std::size_t spheres = 0;
-  int attempts = 0;              // packings made until the mean radius was near the wanted one
+  int attempts = 0;              // packings made until the mean radius was near the required one
   int stages = 0;                // sizes at which the last packing was brought to rest
   long iterations = 0;           // of the minimiser, all attempts
   std::size_t loose_spheres = 0; // rattlers of the jammed state, seated on neighbours at the end
@@ -23,16 +23,16 @@ struct GrowthReport {
   double residual_force = 0; // root mean square net force over the mean contact force
 };
 
-// Spheres of the wanted mean radius (m), radii even between (1 - spread/2) and (1 + spread/2) of the mean,
-// jammed inside the shape: every wall, the flat ends z = 0 and z = height too, is met by touching spheres.
-// Soft spheres at random places are brought to rest, then shrunk in steps towards the size at which the last
-// overlap would vanish (O'Hern et al. 2003, PRE 68:011306); they are left at a mean overlap of 5e-5 mean
-// radii, the largest about ten times that, and those still loose in their cages are seated on neighbours. The
-// number of spheres is chosen so that the jammed mean radius meets the wanted one within 1 % (where whole
-// numbers allow it). The same seed gives the same packing bit for bit. Spheres are numbered along space.
+// Spheres of the required mean radius (m), radii uniform between (1 - spread/2) and (1 + spread/2) of the
+// mean, jammed inside the shape: spheres touch every wall, also the flat ends z = 0 and z = height. Soft
+// spheres at random positions are brought to rest, then shrunk in steps towards the size at which the last
+// overlap would vanish (O'Hern et al. 2003, PRE 68:011306); the final mean overlap is 5e-5 mean radii, the
+// largest about ten times that, and spheres that are still loose in their cages are seated on neighbours. The
+// number of spheres is chosen so that the jammed mean radius meets the required one within 1 % (where whole
+// numbers allow it). The same seed gives the same packing bit for bit. Spheres are numbered in spatial order.
 //
-// Throws std::invalid_argument: shape not valid or a disc (it is packed as a cylinder and laid down), radius
-// not positive, spread outside [0, 1.9], spheres wider than the shape, more than 5 million spheres;
+// Throws std::invalid_argument: shape not valid or a disc (it is packed as a standing cylinder), radius not
+// positive, spread outside [0, 1.9], spheres wider than the shape, more than 5 million spheres;
 // std::runtime_error if the packing does not jam.
 Specimen random_close_packing(const Shape &shape, double mean_radius, double spread, std::uint64_t seed,
                               GrowthReport *report = nullptr);

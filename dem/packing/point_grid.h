@@ -1,4 +1,4 @@
-// Points in cubic cells, for sphere packings that are being made or judged: points may be added one at a
+// Points in cubic cells, for the generation and the check of sphere packings: points may be added one at a
 // time. (The running model has its own search, dem/cell_grid.h, built at once from sorted columns.)
 #pragma once
 
@@ -36,8 +36,8 @@ public:
     head_[cell] = static_cast<int>(next_.size()) - 1;
   }
 
-  // visit(number) for every point in the cells that the cube of half-edge reach (m) around p meets; always
-  // the same order. The caller tests the distance.
+  // Calls visit(number) for every point in the cells that overlap the cube of half-edge reach (m) around p,
+  // always in the same order. The caller tests the distance.
   template <class Visit>
   void for_each_near(const Vector3 &p, double reach, const Visit &visit) const {
     int first[3], last[3];

@@ -31,7 +31,7 @@ double integral(double from, double to, const Function &f) {
   return half * sum;
 }
 
-// Area (m^2) of the part two discs of radii a and b share; distance d of their centres in m.
+// Common area (m^2) of two discs of radii a and b; d is the distance of their centres, m.
 double shared_area_of_discs(double a, double b, double d) {
   const double small = std::min(a, b);
   if (d <= std::abs(a - b)) return pi * small * small;
@@ -55,7 +55,7 @@ double area_in_rectangle(double x, double y, double r, double half_x, double hal
   });
 }
 
-// Radius of the slice whose rim just meets the side wall, for a centre within it or not.
+// Radius of the slice whose rim just touches the side wall, for a centre inside or outside.
 double clearance_of_side(const Shape &shape, const Vector3 &c, double from_axis) {
   if (shape.kind == ShapeKind::cylinder) return std::abs(shape.radius - from_axis);
   return std::min(std::abs(0.5 * shape.width_x - std::abs(c.x)),
@@ -64,7 +64,7 @@ double clearance_of_side(const Shape &shape, const Vector3 &c, double from_axis)
 
 constexpr int contacts_that_hold = 4; // a frictionless sphere needs four to be at rest in space
 
-// The shape of the core: every wall and end moved inwards by margin (m); measures <= 0 where nothing is left.
+// The shape of the core: every wall and end moved inwards by margin (m); dimensions <= 0 if nothing remains.
 // Its z axis starts at 0 like that of every shape: shift centres by -margin along z to use it.
 Shape core_of(const Shape &shape, double margin) {
   Shape core = shape;
@@ -145,7 +145,7 @@ double clipped_volume(const Vector3 &c, double r, const Shape &shape) {
                        ? shared_area_of_discs(disc, shape.radius, from_axis)
                        : area_in_rectangle(c.x, c.y, disc, 0.5 * shape.width_x, 0.5 * shape.width_y));
   };
-  // The slices have a kink where their rim first meets the wall; no piece of the integral lies across it.
+  // The slices have a kink where their rim first touches the wall; no piece of the integral crosses it.
   const double kink = std::acos(std::clamp(clearance_of_side(shape, c, from_axis) / r, 0.0, 1.0));
   const double start = std::asin(low), end = std::asin(high);
   const double first = std::clamp(-kink, start, end), second = std::clamp(kink, start, end);
@@ -153,7 +153,7 @@ double clipped_volume(const Vector3 &c, double r, const Shape &shape) {
 }
 
 std::vector<TouchingPair> touching_pairs(const Specimen &s, double gap) {
-  // A hair wider than the gap, so that the test below alone decides.
+  // Slightly wider than the gap, so that the test below alone decides.
   const double margin = gap + 1e-9 * (gap + largest_radius(s));
   std::vector<TouchingPair> pairs;
   for (const auto &[i, j] : near_pairs(s.centre.data(), s.radius.data(), s.size(), margin)) {
@@ -168,7 +168,7 @@ PackingQuality judge_packing(const Specimen &specimen, const QualityMeasure &mea
     throw std::invalid_argument("the gap tolerance and the core margin of a packing must not be negative");
   require_valid(specimen.shape);
   const std::vector<std::string> problems = check_specimen(specimen, std::numeric_limits<double>::infinity(),
-                                                           1); // walls and overlaps are judged, not refused
+                                                           1); // walls and overlaps are measured, not refused
   if (!problems.empty()) throw std::invalid_argument("the packing cannot be judged: " + problems.front());
   PackingQuality quality;
   quality.spheres = specimen.size();

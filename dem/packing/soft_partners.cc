@@ -15,13 +15,13 @@ namespace {
 
 using kernels::soft_group;
 
-// Of the extent: more than places lose in single precision.
+// Fraction of the extent: more than positions lose in single precision.
 constexpr double relative_slack = 1e-6;
 
-// Of cells, in reaches of the ball that reaches farthest: most reach far less.
+// Edge of cells over the largest reach of a ball: most reach far less.
 constexpr double cell_edge = 1.25;
 
-// The kernel for this processor; all find the same.
+// The kernel for this processor; all give the same result.
 kernels::FindNear find_near() {
   static const kernels::FindNear best =
       for_set<kernels::FindNear>(best_instruction_set(), kernels::find_near_baseline, kernels::find_near_avx2,
@@ -53,8 +53,8 @@ public:
     fill(balls);
   }
 
-  // Writes the numbers of all balls that this one may touch from place `count` on, in the order of cells;
-  // itself left out. Returns the place after them. The room beyond it is spare.
+  // Writes the numbers of all balls that this one may touch, without itself, from index `count` on, in the
+  // order of cells. Returns the index after them. The space beyond it is spare.
   std::size_t find(const SoftBall &own, int self, std::vector<int> &found, std::size_t count) const {
     const double far = own.radius + own.reach + largest_;
     std::array<int, 3> from, to;
@@ -94,7 +94,7 @@ private:
       ball_[to] = static_cast<int>(m);
     }
   }
-  // Its reach with its radius.
+  // The radius includes the reach.
   kernels::NearBall member_of(const SoftBall &b, double slack) const {
     return {static_cast<float>(b.centre.x - low_[0]), static_cast<float>(b.centre.y - low_[1]),
             static_cast<float>(b.centre.z - low_[2]), static_cast<float>(b.radius + b.reach + slack), 0};
@@ -114,7 +114,7 @@ private:
   std::vector<int> ball_;
 };
 
-// What one thread needs while it makes lists.
+// Work space of one thread for making lists.
 struct Found {
   std::vector<int> ball;
   std::array<int, block_rows + soft_group + 1> first;
@@ -123,7 +123,7 @@ struct Found {
   int count(int row) const { return first[row + 1] - first[row]; }
 };
 
-// Of the block's rows, whole groups of them, those with most partners first: groups then hold few empty
+// Sorts the rows of the block, in whole groups, by falling number of partners: groups then have few empty
 // lanes.
 void sort_rows(Found &found, int rows) {
   int most = 0;
@@ -137,7 +137,7 @@ void sort_rows(Found &found, int rows) {
     found.order[next[most - found.count(r)]++] = r;
 }
 
-// Grows by an eighth more than needed, where a vector itself would double.
+// Grows by an eighth more than needed; a plain vector would double.
 template <class T>
 void make_room(AlignedVector<T> &column, std::size_t size) {
   if (column.capacity() < size) {

@@ -1,4 +1,4 @@
-// Which soft spheres may touch soon: for every sphere all its partners, in groups that the kernels read
+// Possible partners of every soft sphere in the near future, in groups that the kernels read
 // (dem/kernels/soft_kernel.h). Lengths in mean radii.
 #pragma once
 
@@ -11,15 +11,15 @@
 
 namespace platen::dem {
 
-// A sphere, an image of one, or one that stands still.
+// A sphere, an image of one, or a fixed sphere.
 struct SoftBall {
   Vector3 centre;
   double radius = 0;
-  double reach = 0; // how far it may go while the lists hold
-  int row = 0;      // whose way it goes
+  double reach = 0; // largest displacement while the lists are valid
+  int row = 0;      // row whose displacement it follows
 };
 
-// Lists of one block of rows; their memory is used again.
+// Lists of one block of rows; their memory is reused.
 struct SoftPartners {
   std::vector<int> row, steps;
   AlignedVector<unsigned> partner;
@@ -30,8 +30,8 @@ struct SoftPartners {
   }
 };
 
-// For the first `own` balls, which are the rows of that number, every other ball whose gap both together may
-// cross. Spheres with as many partners share groups.
+// For each of the first `own` balls, which are the rows of that number: every other ball whose gap the two
+// may close. Spheres with equally many partners are in the same groups.
 void find_soft_partners(const std::vector<SoftBall> &balls, std::size_t own,
                         std::vector<SoftPartners> &blocks);
 

@@ -16,28 +16,28 @@ using kernels::SoftRow;
 
 namespace {
 
-// In mean radii: how far a sphere may go until partners are looked for again. Most tremble in their places,
-// loose ones fly through their cages: each gets what it needs for `wanted_life` iterations, as long as the
-// lists stay short (mean_reach). A search costs as much as some ten iterations.
+// In mean radii: displacement of a sphere until the next search for partners. Most oscillate in place, loose
+// ones fly through their cages: each gets what it needs for `wanted_life` iterations, as long as the lists
+// stay short (mean_reach). A search costs as much as about ten iterations.
 constexpr double first_reach = 0.1, shortest_reach = 0.0125, longest_reach = 0.5, mean_reach = 0.15;
 constexpr double wanted_life = 450;
-constexpr double spare = 1.5; // reach of the calm ones, over what the mean sphere needs
+constexpr double spare = 1.5; // reach of the calm ones over the need of the mean sphere
 constexpr double forgotten =
-    0.7; // what one search leaves of a reach: a loose sphere may have just turned back
-constexpr double rounded_up = 1 + 1e-5; // of speeds: above what single precision loses
+    0.7; // part of a reach that stays after a search: a loose sphere may have just turned back
+constexpr double rounded_up = 1 + 1e-5; // of speeds: more than the loss in single precision
 // FIRE, as published except for the largest step: 2 / w_max is about .55 for spheres with 6 to 12 contacts.
 constexpr double first_step = 0.1, largest_step = 0.45, smallest_step = 0.002;
 constexpr double step_growth = 1.1, step_cut = 0.5, first_mixing = 0.1, mixing_decay = 0.99;
 constexpr int steps_before_growth = 5;
-// Loose spheres go to their seats under a force that would press them in by this much, which takes few steps,
-// and then find the balance of the force asked for, near enough for the relaxation of all that follows.
+// Loose spheres move to their seats under a force that would cause this overlap, which takes few steps, and
+// then find the balance with the required force, near enough for the relaxation of all that follows.
 constexpr double swift_push = 1e-3;
 constexpr double seated = 0.02; // residual force over mean overlap
 constexpr long most_seating = 5000;
 
 constexpr double tiny = 1e-300;
 
-// The kernels for this processor; all give the same places.
+// The kernels for this processor; all give the same positions.
 struct Kernels {
   kernels::SoftForces add_forces =
       for_set<kernels::SoftForces>(best_instruction_set(), kernels::add_soft_forces_baseline,
@@ -70,8 +70,8 @@ void sort_in_space(const Room &room, std::vector<Vector3> &centre, std::vector<d
   centre.swap(placed), factor.swap(sorted);
 }
 
-// visit(shift) for every image that the room has within `reach` of its faces: what is nearer to a face than a
-// partner can be stands once more beyond the opposite one, in edges and corners too.
+// Calls visit(shift) for every image within `reach` of the room's faces: a sphere nearer to a face than a
+// partner can be is repeated beyond the opposite face, in edges and corners too.
 template <class Visit>
 void for_each_image(const Shape &shape, const Vector3 &at, double reach, const Visit &visit) {
   const Vector3 period = periods(shape);
@@ -105,7 +105,7 @@ SoftSpheres::SoftSpheres(Room room, std::vector<Vector3> centre, std::vector<dou
     largest_factor_ = std::max(largest_factor_, o.factor);
   rows_ = number_of_blocks(size(), soft_group) * soft_group;
   velocity_.resize(rows_), force_.resize(rows_), outside_.resize(rows_);
-  way_.assign(rows_ + obstacles_.size(), {0, 0, 0, 1}); // spare rows need some radius
+  way_.assign(rows_ + obstacles_.size(), {0, 0, 0, 1}); // spare rows need a radius
   reach_.assign(size(), first_reach);
   sums_.resize(number_of_blocks(size()));
 }
@@ -151,7 +151,7 @@ void SoftSpheres::make_balls() {
     });
 }
 
-// Ways begin anew here, so that they stay short.
+// Displacements restart from zero here, so that they stay small.
 void SoftSpheres::find_partners() {
   choose_reach();
   since_build_ = 0;
@@ -178,7 +178,7 @@ void SoftSpheres::find_walls() {
   }
 }
 
-// A pair off the list becomes a contact only after one end has moved farther than its reach.
+// A pair that is not listed becomes a contact only after one end has moved farther than its reach.
 double SoftSpheres::room_of(std::size_t first, std::size_t last) const {
   double room = longest_reach;
   for (std::size_t i = first; i < last; ++i)
@@ -200,7 +200,7 @@ kernels::SoftColumns SoftSpheres::columns() {
   return {way_.data(), velocity_.data(), force_.data(), outside_.data()};
 }
 
-// Forces, and the squares that a step downhill with `next_step` needs.
+// Forces, and the sums of squares for a downhill step with `next_step`.
 void SoftSpheres::compute_forces(double next_step) {
   if (partners_are_stale()) find_partners();
   ++since_build_;
@@ -214,7 +214,7 @@ void SoftSpheres::compute_forces(double next_step) {
   add_up();
 }
 
-// Block after block, as places depend on the last bit. A pair is counted at both of its ends, a wall at one.
+// Block after block, as positions depend on the last bit. A pair is counted at both ends, a wall at one.
 void SoftSpheres::add_up() {
   total_ = {};
   double overlap = 0, contacts = 0;
@@ -227,7 +227,7 @@ void SoftSpheres::add_up() {
   residual_ = size() == 0 ? 0 : std::sqrt(total_.push / static_cast<double>(size()));
 }
 
-// visit(row, overlap) for both ends of every pair that touches, as things were when the lists were made.
+// visit(row, overlap) for both ends of every touching pair, in the state when the lists were made.
 template <class Visit>
 void SoftSpheres::for_each_touch(const Visit &visit) const {
   for (const SoftPartners &block : partners_) {
@@ -320,7 +320,7 @@ bool SoftSpheres::at_rest(double tolerance, double floor) const {
   return residual_ <= std::max(tolerance * mean_overlap_, floor);
 }
 
-// Half of the last drift is taken back, and everything stands still.
+// Takes back half of the last drift and sets all velocities to zero.
 void SoftSpheres::step_back(double step) {
   const float half = static_cast<float>(0.5 * step);
   for_each(size(), [&](std::size_t i) {

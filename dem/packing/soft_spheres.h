@@ -1,5 +1,5 @@
-// Soft frictionless spheres between frictionless walls, or in a box without walls that repeats itself,
-// brought to rest: the working part of the growth packings.
+// Soft frictionless spheres between frictionless walls, or in a periodic box without walls, brought to rest:
+// the main part of the growth packings.
 #pragma once
 
 #include <cstddef>
@@ -23,16 +23,16 @@ struct Overlaps {
   double residual_force = 0; // root mean square of the net force on a sphere, same unit (stiffness 1)
 };
 
-// Where soft spheres are.
+// The container of soft spheres.
 struct Room {
-  Shape shape;          // a cylinder or box with walls; of a repeating room a box
-  bool repeats = false; // in x, y and z: what leaves at one face comes in at the opposite one
+  Shape shape;          // a cylinder or box with walls; a box if periodic
+  bool repeats = false; // periodic in x, y and z
 };
 
 // Spheres of radius scale * factor[i] that repel with unit stiffness where they overlap (energy overlap^2 / 2
-// per contact). Any length unit; the mean radius should be about 1, which the search skin and the steps
-// assume. Loops use the threads of all loops; places repeat to the last bit for any number of them and on any
-// processor.
+// per contact). Any length unit; the mean radius should be about 1, as the search skin and the steps assume.
+// Loops use the threads of all loops; positions are the same to the last bit for any number of threads and on
+// any processor.
 class SoftSpheres {
 public:
   SoftSpheres(Room room, std::vector<Vector3> centre, std::vector<double> factor);
@@ -44,16 +44,16 @@ public:
   // overlap, or below floor (nothing left to push), or after max_iterations. Returns the iterations used.
   long relax(double tolerance, double floor, long max_iterations);
   Overlaps overlaps();
-  // Takes every sphere that is not held (fewer than four contacts with spheres or walls) to neighbours, in a
-  // direction of its own and while all others stand still, and pushes it there with the given force from now
-  // on: after relax() no sphere floats. Returns how many there are.
+  // Moves every unsupported sphere (fewer than four contacts with spheres or walls) to neighbours, each in a
+  // direction of its own and with all others fixed, and presses it there with the given force from now on:
+  // after relax() no sphere floats. Returns the number of these spheres.
   std::size_t seat_loose_spheres(double force, Random &random);
-  // In order of space, not of the constructor. Of a repeating room: within the box.
+  // In spatial order, not that of the constructor. For a periodic container: within the box.
   std::vector<Vector3> centres() const;
   const std::vector<double> &factor() const { return factor_; }
 
 private:
-  // Spheres that others meet and that do not move themselves.
+  // Spheres that others touch and that do not move themselves.
   struct Obstacle {
     Vector3 centre;
     double factor;
@@ -62,7 +62,7 @@ private:
     kernels::SoftSums of_kernel;
     WallSums of_walls;
     double fastest = 0;
-    double room = 0; // how far its spheres may still go before each is looked at
+    double room = 0; // displacement left to its spheres until each is checked
   };
 
   SoftSpheres(Room room, std::vector<Vector3> centre, std::vector<double> factor,
@@ -92,15 +92,15 @@ private:
   double scale_ = 1, largest_factor_ = 1;
   std::vector<double> factor_;
   std::vector<Obstacle> obstacles_;
-  std::vector<Vector3> centre_; // when the lists were made
+  std::vector<Vector3> centre_; // positions when the lists were made
   std::vector<Vector3> press_;  // a constant force on each, or empty
-  // Spheres, filled up to whole groups; of ways also obstacles, which have none. Outside: walls and press.
+  // Spheres in whole groups; in way_ also obstacles, without displacement. outside_: walls and press_.
   AlignedVector<kernels::SoftRow> way_, velocity_, force_, outside_;
   std::size_t rows_ = 0; // whole groups
   std::vector<SoftPartners> partners_;
-  std::vector<SoftBall> balls_; // of the last search; kept for their memory
+  std::vector<SoftBall> balls_; // of the last search; kept to reuse their memory
   SoftWalls walls_;
-  std::vector<double> reach_; // how far each sphere may go until partners are looked for again
+  std::vector<double> reach_; // largest displacement of each sphere until the next search for partners
   bool lists_are_good_ = false;
   long since_build_ = 0;
   std::vector<BlockSums> sums_;

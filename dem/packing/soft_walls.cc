@@ -52,7 +52,7 @@ void touch(double overlap, WallSums &sums) {
 
 } // namespace
 
-// No branch: half of the spheres near a wall touch it, in no order.
+// Without branches: half of the spheres near a wall touch it, in no order.
 void SoftWalls::add_flat(std::size_t first, std::size_t last, const SoftRow *way, SoftRow *force,
                          WallSums &sums) const {
   for (const Plane *p = begin(flat_, first), *end = begin(flat_, last); p != end; ++p) {
@@ -66,7 +66,7 @@ void SoftWalls::add_flat(std::size_t first, std::size_t last, const SoftRow *way
   }
 }
 
-// Roots and quotients of some at once, in vectors, and then their sums in order.
+// Roots and quotients of several entries at once, in vectors, then their sums in order.
 void SoftWalls::add_round(std::size_t first, std::size_t last, const SoftRow *way, SoftRow *force,
                           WallSums &sums) const {
   float x[at_once], y[at_once], inner[at_once], outside[at_once], overlap[at_once];

@@ -1,5 +1,4 @@
-// The frictionless walls of a room, as soft spheres meet them (dem/packing/soft_spheres.h). Lengths in mean
-// radii.
+// The frictionless walls of a container of soft spheres (dem/packing/soft_spheres.h). Lengths in mean radii.
 #pragma once
 
 #include <cstddef>
@@ -16,18 +15,18 @@ struct WallSums {
   double overlap = 0, contacts = 0, largest = 0;
 };
 
-// Spheres near walls, flat and round ones apart. As of pairs, what is known of each is how things were when
-// the lists were made, and the way since (dem/kernels/soft_kernel.h).
+// Spheres near walls, flat and round walls separately. As for pairs, the lists contain the state when they
+// were made; the displacement since then is added (dem/kernels/soft_kernel.h).
 class SoftWalls {
 public:
-  // Forgets all. Cylinders and boxes.
+  // Empties the lists. For cylinders and boxes.
   void clear(const Shape &shape);
-  // Rows ascending; the walls that this one may touch once it has gone `reach` are listed.
+  // Rows ascending; lists the walls that this sphere may touch after a displacement of `reach`.
   void add(int row, const Vector3 &centre, double radius, double reach);
-  // Adds to `force` of rows [first, last), that have gone these ways since.
+  // Adds to `force` of rows [first, last), with their displacements `way` since the lists were made.
   WallSums add_forces(std::size_t first, std::size_t last, const kernels::SoftRow *way,
                       kernels::SoftRow *force) const;
-  // visit(row) for every one of [first, last) on the lists, once or more.
+  // Calls visit(row) for every row of [first, last) on the lists, once or more.
   template <class Visit>
   void for_each_row(std::size_t first, std::size_t last, const Visit &visit) const {
     const auto rows_of = [&](const auto &walls) {
@@ -58,7 +57,7 @@ private:
   Shape shape_;
   std::vector<Plane> flat_;
   std::vector<Round> round_;
-  std::vector<Round> wide_; // of spheres that are wider than the room, pressed from both sides
+  std::vector<Round> wide_; // of spheres wider than the container, pressed from both sides
 };
 
 } // namespace platen::dem

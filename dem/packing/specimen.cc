@@ -13,7 +13,7 @@
 namespace platen::dem {
 namespace {
 
-// Centres closer than this part of the smaller radius give no usable direction of contact.
+// Centres closer than this fraction of the smaller radius give no usable direction of contact.
 constexpr double coincidence = 1e-9;
 
 bool finite(const Vector3 &v) {
@@ -29,7 +29,7 @@ std::string sphere(std::size_t i) {
   return "sphere " + std::to_string(i);
 }
 
-// Collects problems, and beyond the first few only their number.
+// Collects problems; beyond the first few it only counts them.
 class ProblemList {
 public:
   explicit ProblemList(std::size_t most) : most_(most) {}
@@ -223,7 +223,7 @@ std::vector<std::string> check_specimen(const Specimen &specimen, double wall_to
   }
   if (specimen.size() == 0) problems.add("there are no spheres");
   check_numbers(specimen, problems);
-  if (!problems.empty()) return problems.texts(); // distances mean nothing before the numbers do
+  if (!problems.empty()) return problems.texts(); // distances have no meaning with wrong numbers
   check_coincidence(specimen, problems);
   check_walls(specimen, wall_tolerance * mean_radius(specimen), problems);
   return problems.texts();

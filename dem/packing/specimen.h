@@ -1,5 +1,5 @@
-// A packed specimen before it is bonded: sphere centres and radii inside a shape, and how its end faces meet
-// flat platens. SI units, axis along z.
+// A packed specimen before it is bonded: sphere centres and radii inside a shape, and the contact of its end
+// faces with flat platens. SI units, axis along z.
 #pragma once
 
 #include <cstddef>
@@ -14,15 +14,15 @@ namespace platen::dem {
 enum class ShapeKind { cylinder, box, disc };
 
 // A cylinder of radius r and height h on 0 <= z <= h, axis x = y = 0; or a box [-lx/2, lx/2] x [-ly/2, ly/2]
-// x [0, h]. (A bar is a box or cylinder that is long along z.) Or a disc that lies on its rim: a cylinder of
-// radius r along y, |y| <= w/2, on 0 <= z <= h = 2 r.
+// x [0, h]. (A bar is a box or cylinder that is long along z.) Or a disc on its rim: a cylinder of radius r
+// along y, |y| <= w/2, on 0 <= z <= h = 2 r.
 struct Shape {
   ShapeKind kind = ShapeKind::cylinder;
   double radius = 0;               // m, cylinder, disc
-  double width_x = 0, width_y = 0; // m, box; of a disc: 2 r and its thickness
+  double width_x = 0, width_y = 0; // m, box; for a disc: 2 r and its thickness
   double height = 0;               // m
 
-  // m^2, what a load along z is divided by; of a disc pi r w, which gives 2 P / (pi D w).
+  // m^2, by which a load along z is divided; for a disc pi r w, which gives 2 P / (pi D w).
   double cross_section() const {
     if (kind == ShapeKind::disc) return pi * radius * width_y;
     return kind == ShapeKind::cylinder ? pi * radius * radius : width_x * width_y;
@@ -42,7 +42,7 @@ double smallest_width(const Shape &shape);                // m: diameter, an edg
 // distance to a face plane).
 double wall_clearance(const Shape &shape, const Vector3 &point);
 Shape scaled(Shape shape, double factor); // every length
-// Of a box that repeats itself along x, y and z: its edges (m), and the place in it of a point anywhere.
+// For a box that is periodic along x, y and z: its edges (m), and the image in it of any point.
 Vector3 periods(const Shape &box);
 Vector3 within(const Shape &box, const Vector3 &point);
 // Throws std::invalid_argument, naming the measure, unless every measure of the shape is positive and finite.
@@ -56,11 +56,11 @@ struct Specimen {
   std::size_t size() const { return centre.size(); }
 };
 
-// A standing cylinder laid on its rim; other shapes stay as they are.
+// A standing cylinder turned onto its rim; other shapes stay as they are.
 Specimen laid_down(const Specimen &specimen);
 
-// A bar that was packed along z laid down along x: what was x is up, y stays. Only boxes; others stay as they
-// are.
+// A bar that was packed along z, turned along x: the old x axis points up, y stays. Only boxes; others stay
+// as they are.
 Specimen laid_along_x(const Specimen &specimen);
 
 inline double sphere_volume(double radius) { // m^3
@@ -70,25 +70,25 @@ inline double sphere_volume(double radius) { // m^3
 struct BoundingBox {
   Vector3 low, high; // m
 };
-// Of the shape, and of the spheres themselves (surfaces included; of no spheres: the origin).
+// Of the shape, or of the spheres (surfaces included; the origin without spheres).
 BoundingBox bounding_box(const Shape &shape);
 BoundingBox bounding_box(const Specimen &specimen);
 
-double mean_radius(const Specimen &specimen);       // m, 0 of no spheres
-double smallest_radius(const Specimen &specimen);   // m, 0 of no spheres
-double largest_radius(const Specimen &specimen);    // m, 0 of no spheres
+double mean_radius(const Specimen &specimen);       // m, 0 without spheres
+double smallest_radius(const Specimen &specimen);   // m, 0 without spheres
+double largest_radius(const Specimen &specimen);    // m, 0 without spheres
 double volume_of_spheres(const Specimen &specimen); // m^3, overlaps counted twice
 
-// What is wrong with a specimen, in plain words, one problem an entry, ids from 0; empty if nothing is.
-// Checked: as many radii as centres, radii positive and finite, centres finite, no two centres closer than
-// 1e-9 of the smaller radius (the direction of contact is lost there), no sphere outside the shape by more
-// than wall_tolerance (in mean radii). Stops after max_problems with a last line that counts the rest.
+// Problems of a specimen in plain words, one problem per entry, ids from 0; empty if there are none. Checked:
+// as many radii as centres, radii positive and finite, centres finite, no two centres closer than 1e-9 of the
+// smaller radius (they have no direction of contact), no sphere outside the shape by more than wall_tolerance
+// (in mean radii). Stops after max_problems with a last line that counts the rest.
 std::vector<std::string> check_specimen(const Specimen &specimen, double wall_tolerance = 1e-3,
                                         std::size_t max_problems = 10);
 
 enum class EndPreparation {
-  as_packed, // nothing is done: a platen meets spheres where they are
-  ground     // as if sawn flush: every sphere near an end is met at once, each from its own zero gap
+  as_packed, // no change: a platen touches spheres where they are
+  ground     // as if sawn flat: all spheres near an end touch at once, each with its own zero gap
 };
 
 // Spheres seated on one end plane, in order of their number.
@@ -103,7 +103,7 @@ struct SpecimenEnds {
 };
 
 // The seats of both ends. Ground: all spheres whose surface lies within end_layer mean radii of the plane, z
-// - R for the bottom, height - z - R for the top; the layer decides how many spheres carry the platen
+// - R for the bottom, height - z - R for the top; the layer determines how many spheres carry the platen
 // (docs/glossary.md, End layer). As packed: none. A sphere may be seated on both ends.
 // Throws std::invalid_argument unless end_layer is finite and not negative.
 SpecimenEnds seat_ends(const Specimen &specimen, EndPreparation preparation, double end_layer);

@@ -16,7 +16,7 @@
 namespace platen::dem {
 namespace {
 
-// visit(centre, number in the tile) for every sphere of the tiles over the shape; lengths in mean radii.
+// visit(centre, number in the tile) for every sphere of the tiles on the shape; lengths in mean radii.
 template <class Visit>
 void for_each_of_tiles(const Specimen &tile, const Shape &shape, const Visit &visit) {
   const BoundingBox bounds = bounding_box(shape);

@@ -47,7 +47,7 @@ void Clusters<n>::join(const BlockMatrix<n, double> &a, const std::vector<char> 
       if (free(static_cast<std::size_t>(a.column[k]))) cluster_[a.column[k]] = count;
     ++count;
   }
-  // The rest: to the cluster of the stiffest neighbour that is in one.
+  // Each remaining row joins the cluster of its stiffest neighbour that is in one.
   const std::vector<int> before = cluster_;
   for (std::size_t i = 0; i < rows; ++i) {
     if (!free(i) || before[i] >= 0) continue;

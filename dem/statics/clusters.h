@@ -1,4 +1,4 @@
-// Neighbouring rows of a network's stiffness joined to clusters that move rigidly.
+// Clusters of neighbouring rows of a network's stiffness, which move rigidly.
 #pragma once
 
 #include <vector>
@@ -12,22 +12,22 @@ template <int n>
 class Clusters {
 public:
   Clusters() = default;
-  // A row and all its neighbours where none of them is taken yet; what is left joins a neighbour's cluster.
-  // Fixed rows, and rows without a stiffness, are in none.
+  // A cluster is a row and all its neighbours if none of them is in a cluster yet; each remaining row joins a
+  // neighbour's cluster. Fixed rows, and rows without a stiffness, are in none.
   Clusters(const BlockMatrix<n, double> &matrix, const std::vector<Vector3> &place,
            const std::vector<double> &length, const std::vector<char> &fixed);
 
   std::size_t size() const { return place_.size(); }
-  const std::vector<Vector3> &place() const { return place_; }  // m, mean of the members'
-  const std::vector<double> &length() const { return length_; } // m, by which rotations are multiplied
+  const std::vector<Vector3> &place() const { return place_; }                  // m, mean of the members'
+  const std::vector<double> &length() const { return length_; }                 // m, factor on rotations
   BlockMatrix<n, double> stiffness(const BlockMatrix<n, double> &matrix) const; // of the rigid clusters
 
   void gather(const std::vector<float> &forces, std::vector<float> &of_clusters) const;
-  // What the clusters' motions, times a factor, are to their members; 0 for rows in none.
+  // Motions of the members by those of the clusters, times a factor; 0 for rows in no cluster.
   void spread(const std::vector<float> &of_clusters, float factor, std::vector<float> &motions) const;
 
 private:
-  // A member moves by u = U + W x arm and w = ratio W, with rotations times lengths.
+  // A member moves by u = U + W x arm and w = ratio W, where rotations are multiplied by lengths.
   struct Carry {
     double arm[3] = {0, 0, 0}, ratio = 1;
   };

@@ -26,7 +26,7 @@ Solution conjugate_gradients(const BlockMatrix<n, double> &a, Multigrid<n> &inve
                              std::vector<double> &x, double tolerance, int most_iterations) {
   const std::size_t size = right.size();
   std::vector<double> r(size), z(size), d(size, 0.0), ad(size, 0.0);
-  // What the loads, and the fixed rows where they are, ask for.
+  // Right-hand side from the loads and from the values of the fixed rows.
   std::vector<double> prescribed(size, 0.0);
   for (std::size_t k = 0; k < size; ++k)
     if (fixed[k / n]) prescribed[k] = x[k];
@@ -42,8 +42,8 @@ Solution conjugate_gradients(const BlockMatrix<n, double> &a, Multigrid<n> &inve
     return s;
   }
   for_each_product(a, x.data(), residual);
-  // The multigrid is not quite the same from call to call, by round-off of single precision: beta is that of
-  // Polak and Ribiere, with the change of the residual.
+  // The multigrid differs from call to call by round-off of single precision: beta is that of Polak and
+  // Ribiere, with the change of the residual.
   double rz = 0, change = 0;
   s.residual = std::sqrt(product(r, r)) / wanted;
   while (s.residual > tolerance && s.iterations < most_iterations) {
@@ -65,7 +65,7 @@ Solution conjugate_gradients(const BlockMatrix<n, double> &a, Multigrid<n> &inve
         size,
         [&](std::size_t k) {
           x[k] += alpha * d[k];
-          ad[k] *= -alpha; // what the residual changes by, kept for beta
+          ad[k] *= -alpha; // change of the residual, kept for beta
           r[k] += ad[k];
         },
         entries_per_part);

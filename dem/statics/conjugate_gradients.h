@@ -1,4 +1,4 @@
-// Conjugate gradients on block rows, from a start and with a preconditioner.
+// Conjugate gradients on block rows, with a start vector and a preconditioner.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,12 @@ namespace platen::dem::statics {
 
 struct Solution {
   int iterations = 0;
-  double residual = 0; // over the right hand side, that of the fixed rows included
+  double residual = 0; // over the right hand side, with the contribution of the fixed rows
 };
 
-// A x = right in the rows that are not fixed; x is the start, holds what the fixed rows are at, and is the
-// answer. The residual is over the larger of `right` and of what the fixed rows bring to it. Ends at the
-// tolerance, after so many iterations, or where A turns out to have a negative eigenvalue.
+// Solves A x = right in the rows that are not fixed; x is the start vector, contains the values of the fixed
+// rows, and returns the solution. The residual is relative to `right` less the contribution of the fixed
+// rows. Ends at the tolerance, after most_iterations, or if A proves to have a negative eigenvalue.
 template <int n>
 Solution conjugate_gradients(const BlockMatrix<n, double> &a, Multigrid<n> &inverse,
                              const std::vector<char> &fixed, const std::vector<double> &right,

@@ -15,9 +15,9 @@ namespace {
 constexpr int degree = 2;            // of the smoothing polynomial, before and after
 constexpr double smoothed = 8;       // it acts on eigenvalues from 1/smoothed of the largest one
 constexpr double largest = 2.1;      // of the scaled matrix: 2 for any network of springs, and a margin
-constexpr double correction = 1.5;   // rigid clusters are too stiff: what they say is taken so many times
+constexpr double correction = 1.5;   // rigid clusters are too stiff: factor on their result
 constexpr std::size_t few_rows = 60; // are solved exactly
-// Added to diagonals, over their mean: a network that may move as a whole has no inverse.
+// Added to diagonals, over their mean: a network that can move as a rigid body has no inverse.
 constexpr double softest = 1e-6;
 
 } // namespace
@@ -128,7 +128,7 @@ void Multigrid<n>::make_next(const BlockMatrix<n, double> &a, std::vector<Vector
   level.fixed = std::move(fixed);
 }
 
-// solution = (about the inverse) right, on a level; what is left of it in `residual`, if it is wanted.
+// solution = (approximate inverse) right, on a level; the remainder in `residual`, if required.
 template <int n>
 void Multigrid<n>::cycle(std::size_t at, bool rest) {
   Level &l = levels_[at];
@@ -142,7 +142,7 @@ void Multigrid<n>::cycle(std::size_t at, bool rest) {
   }
   const std::size_t rows = l.matrix.rows();
   const double middle = 0.5 * largest * (1 + 1 / smoothed), half = 0.5 * largest * (1 - 1 / smoothed);
-  // Each turn: direction = a direction + b D^-1 residual, solution += direction, residual -= A direction.
+  // Each pass: direction = a direction + b D^-1 residual, solution += direction, residual -= A direction.
   const auto smooth = [&](bool last_product) {
     double rho = half / middle;
     for (int k = 0; k < degree; ++k) {
@@ -177,7 +177,7 @@ void Multigrid<n>::cycle(std::size_t at, bool rest) {
   smooth(rest);
 }
 
-// The next level's answer to the residual, twice (once where it is exact), is added to the solution.
+// Adds the solution of the next level for the residual, in two cycles (one where it is exact).
 template <int n>
 void Multigrid<n>::visit_next(std::size_t at) {
   Level &l = levels_[at], &next = levels_[at + 1];
@@ -203,7 +203,7 @@ void Multigrid<n>::visit_next(std::size_t at) {
 template <int n>
 void Multigrid<n>::apply(const std::vector<double> &r, std::vector<double> &z) {
   Level &finest = levels_.front();
-  // Single precision has a short range: the residual enters with a largest entry of one.
+  // Single precision has a short range: the residual is scaled to a largest entry of one.
   double size = 0;
   for (const double a : r)
     size = std::max(size, std::abs(a));

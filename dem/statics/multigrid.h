@@ -2,8 +2,8 @@
 // to rigid clusters, clusters to larger ones, until a few are left whose equations are solved exactly
 // (aggregation multigrid with rigid motions as coarse functions; Braess, Computing 55 (1995) 379-393). A
 // level is smoothed by Chebyshev polynomials of the matrix scaled by its diagonal blocks (Adams et al., J.
-// Comput. Phys. 188 (2003) 593-610), and visits the next one twice. In single precision, because it is
-// approximate anyway and bound by memory.
+// Comput. Phys. 188 (2003) 593-610), and calls the next one twice. Single precision, because the inverse is
+// approximate anyway and limited by memory access.
 #pragma once
 
 #include <vector>
@@ -17,8 +17,8 @@ namespace platen::dem::statics {
 template <int n>
 class Multigrid {
 public:
-  // Of a symmetric matrix without negative eigenvalues. `place`: of each row, m; `length`: by which its
-  // rotation is multiplied, m. Rows that are `fixed` have no part in it: what comes back for them is 0.
+  // For a symmetric matrix without negative eigenvalues. `place`: position of each row, m; `length`: factor
+  // on its rotation, m. Rows that are `fixed` have no part in it: their result is 0.
   Multigrid(const BlockMatrix<n, double> &matrix, const std::vector<Vector3> &place,
             const std::vector<double> &length, const std::vector<char> &fixed);
   ~Multigrid();

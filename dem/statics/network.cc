@@ -14,11 +14,11 @@ Matrix3 skew(const Vector3 &a) {
   m << 0, -a.z, a.y, a.z, 0, -a.x, -a.y, a.x, 0;
   return m;
 }
-// Along n one stiffness, across it another.
+// Stiffness `along` n, and `across` it.
 Matrix3 spring(const Vector3 &n, double along, double across) {
   return across * Matrix3::Identity() + (along - across) * eigen(n) * eigen(n).transpose();
 }
-// Of a point, `arm` from the centre of a particle, by its displacement and its rotation times the radius.
+// Displacement of a point, `arm` from a particle's centre, by its displacement and rotation times radius.
 Matrix36 moves(double radius, const Vector3 &arm) {
   Matrix36 m;
   m << Matrix3::Identity(), (-1 / radius) * skew(arm);
@@ -30,7 +30,7 @@ Eigen::Map<Eigen::Matrix<double, n, n>> block_at(double *to) {
   return Eigen::Map<Eigen::Matrix<double, n, n>>(to);
 }
 
-// Of one bond, between the unknowns of its two particles; n x n by columns. K_ji is the transpose of K_ij.
+// Stiffness of one bond for the unknowns of its particles; n x n by columns. K_ji is the transpose of K_ij.
 template <int n>
 struct BondBlocks {
   double ii[n * n], ij[n * n], jj[n * n];
@@ -74,7 +74,7 @@ template <int n>
 BlockMatrix<n, double> assemble(const Particles &p, const Bonds &bonds,
                                 const std::vector<BondStiffness> &of_rows) {
   const std::size_t particles = p.size();
-  // Of each particle: its bonds as second particle, itself, its bonds as first; in the order of bonds.
+  // Blocks of each particle: its bonds as second particle, itself, its bonds as first; in the order of bonds.
   BlockMatrix<n, double> a;
   std::vector<std::size_t> as_second(particles, 0), as_first(particles, 0);
   for (std::size_t k = 0; k < bonds.size(); ++k) {
@@ -98,7 +98,7 @@ BlockMatrix<n, double> assemble(const Particles &p, const Bonds &bonds,
     a.column[above[i]++] = j;
     a.column[below[j]++] = i;
   }
-  // A bond is worked out for both of its rows, so that no row waits for another.
+  // A bond is computed for both of its rows, so that no row waits for another.
   a.block.assign(a.begin.back() * n * n, 0.0);
   for_each(
       particles,

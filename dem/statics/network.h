@@ -9,18 +9,18 @@
 
 namespace platen::dem::statics {
 
-// Of all bonds in their present directions, with these stiffnesses of their rows and without the forces that
-// are in them. Every particle has its diagonal block.
+// Stiffness of all bonds in their present directions, with these stiffnesses of their rows and without the
+// effect of their present forces. Every particle has its diagonal block.
 template <int n>
 BlockMatrix<n, double> assemble(const Particles &particles, const Bonds &bonds,
                                 const std::vector<BondStiffness> &of_rows);
-// N/m, N m, of each row at rest.
+// N/m, N m, for each row at rest.
 std::vector<BondStiffness> at_rest(const Bonds &bonds);
 
-// Of a spring to a body; n x n by columns.
+// Stiffness of a spring to a body; n x n by columns.
 template <int n>
 void add_support(const Particles &particles, const GroundSpring &spring, double *block);
-// The forces (torques over the radius) that the body's displacement brings to the particle.
+// The forces (torques over the radius) on the particle by the displacement of the body.
 template <int n>
 void add_support_load(const Particles &particles, const GroundSpring &spring, const Vector3 &moved,
                       double *load);
