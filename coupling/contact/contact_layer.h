@@ -235,7 +235,6 @@ private:
   void keep_result(std::size_t k, const RowForce &row, const Vector3 &centre);
 
   SurfaceContact parameters_;
-  dem::FrictionLaw friction_;
   kernels::ComputeRows compute_rows_ = nullptr; // null: row by row
   double stiffness_ = 0;                        // N/m, of the whole contact
   double smallest_radius_;
