@@ -60,6 +60,17 @@ struct StepLimit {
   std::string reason;
 };
 
+// A boundary that frames show.
+class Pictured {
+public:
+  virtual std::string series() const = 0; // the time series of files that it belongs to, as "platens"
+  virtual void write_vtu(std::ostream &) const = 0;
+  virtual std::vector<ActiveContact> contacts() const = 0; // of the last step
+
+protected:
+  ~Pictured() = default;
+};
+
 class Boundary {
 public:
   explicit Boundary(std::string name) : name_(std::move(name)) {}
@@ -106,15 +117,8 @@ public:
     return listed != nullptr ? std::optional(*listed) : std::nullopt;
   }
   virtual bool reads_all(const Step &) const { return false; }
-  // The contact work of a boundary that is shared out: each rank prepares and computes what belongs to the
-  // marked blocks of particles, appends what comes of it, and takes what all have appended, in any order.
-  // Then the same of all that is told of rows and kept, between steps.
-  virtual void compute_only(const std::vector<char> & /*own_blocks*/) {}
-  virtual std::size_t most_bytes() const { return 0; } // that a rank appends
-  virtual void put_loads(std::vector<char> &) const {}
-  virtual void take_loads(const std::vector<char> & /*of_all*/) {}
-  virtual void put_rows(std::vector<char> &) const {}
-  virtual void take_rows(const std::vector<char> & /*of_all*/) {}
+  // The contact work that ranks divide; null: every rank does all of it.
+  virtual SharedContacts *shared_contacts() { return nullptr; }
 
   // Springs of the particles near it, listed anew, for the stable step; fraction of critical damping of its
   // dashpots; its own limit, once they are listed; the same as far as it is known without work.
@@ -142,11 +146,7 @@ public:
   virtual ServoLoad servo_load(const dem::Particles &) const { return {}; }
   virtual std::size_t bytes() const { return 0; } // of rows and search lists
 
-  // Pictures: the series that it belongs to ("platens"; empty: none), its VTU, its contacts of the last step.
-  virtual std::string series() const { return ""; }
-  virtual void write_vtu(std::ostream &) const {}
-  virtual std::vector<ActiveContact> contacts() const { return {}; }
-
+  virtual const Pictured *pictured() const { return nullptr; } // null: it has no picture
   virtual void describe(Archive &archive) = 0;
 
 private:
@@ -154,7 +154,7 @@ private:
 };
 
 // One whose surface meets the particles by a contact layer.
-class ContactBoundary : public Boundary {
+class ContactBoundary : public Boundary, public Pictured {
 public:
   using Boundary::Boundary;
   std::size_t prepare(const dem::Particles &particles, const Step &step) override {
@@ -171,12 +171,7 @@ public:
   const std::vector<int> *listed_particles() const override { return &layer().search().particles(); }
   long lists_made() const override { return layer().search().lists_made(); }
   std::optional<std::vector<int>> rows_read() const override { return std::vector<int>{}; }
-  void compute_only(const std::vector<char> &own_blocks) override { layer().compute_only(own_blocks); }
-  std::size_t most_bytes() const override { return layer().most_bytes(); }
-  void put_loads(std::vector<char> &bytes) const override { layer().put_loads(bytes); }
-  void take_loads(const std::vector<char> &of_all) override { layer().take_loads(of_all); }
-  void put_rows(std::vector<char> &bytes) const override { layer().put_rows(bytes); }
-  void take_rows(const std::vector<char> &of_all) override { layer().take_rows(of_all); }
+  SharedContacts *shared_contacts() override { return &layer(); }
   bool reads_all(const Step &step) const override {
     return layer().search().stale_after(step.farthest + farthest(step));
   }
@@ -193,7 +188,7 @@ public:
   }
   bool stiffened() const override { return layer().stiffened(); }
   std::size_t bytes() const override { return layer().bytes(); }
-  void write_vtu(std::ostream &stream) const override = 0;
+  const Pictured *pictured() const override { return this; }
   std::vector<ActiveContact> contacts() const override { return layer().contacts(); }
 
   virtual const ContactLayer &layer() const = 0;

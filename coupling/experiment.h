@@ -135,6 +135,7 @@ private:
   std::vector<std::size_t> at_once_, in_turn_;   // boundaries whose drift is worth a thread; the others
   std::vector<std::vector<std::size_t>> groups_; // of boundaries of which no two push the same particle
   long lists_grouped_ = -1;                      // search lists made when that was found
+  std::vector<SharedContacts *> shared_;         // of boundaries whose contact work the ranks divide
   long lists_shared_ = -1;                       // the same of rows that all ranks see
   double time_step_ = 0;
   std::string reason_;

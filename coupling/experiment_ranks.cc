@@ -27,8 +27,11 @@ void Experiment::begin_sharing() {
   std::vector<char> own(number_of_blocks(model.particles.size()), 0);
   for (const int block : model.exchange()->blocks().all)
     own[static_cast<std::size_t>(block)] = 1;
+  shared_.clear();
   for (const auto &boundary : boundaries_)
-    boundary->compute_only(own);
+    if (SharedContacts *contacts = boundary->shared_contacts()) shared_.push_back(contacts);
+  for (SharedContacts *contacts : shared_)
+    contacts->compute_only(own);
   lists_shared_ = -1;
   share_rows_of_boundaries();
 }
@@ -36,10 +39,10 @@ void Experiment::begin_sharing() {
 // What boundaries tell and keep of their rows.
 void Experiment::gather_rows() {
   if (!model.is_cut()) return;
-  for (const auto &boundary : boundaries_) {
+  for (SharedContacts *contacts : shared_) {
     std::vector<char> own;
-    boundary->put_rows(own);
-    boundary->take_rows(model.exchange()->all_bytes(own));
+    contacts->put_rows(own);
+    contacts->take_rows(model.exchange()->all_bytes(own));
   }
 }
 
@@ -61,14 +64,14 @@ void Experiment::settle_state() {
 // Of all boundaries in one message: how many bytes each has, then these.
 void Experiment::send_loads() {
   if (model.exchange()->ranks() == 1) return;
-  std::vector<char> bytes(boundaries_.size() * sizeof(std::uint64_t));
+  std::vector<char> bytes(shared_.size() * sizeof(std::uint64_t));
   std::size_t most = bytes.size();
-  for (std::size_t b = 0; b < boundaries_.size(); ++b) {
+  for (std::size_t b = 0; b < shared_.size(); ++b) {
     const std::size_t before = bytes.size();
-    boundaries_[b]->put_loads(bytes);
+    shared_[b]->put_loads(bytes);
     const std::uint64_t count = bytes.size() - before;
     std::memcpy(bytes.data() + b * sizeof count, &count, sizeof count);
-    most += boundaries_[b]->most_bytes();
+    most += shared_[b]->most_bytes();
   }
   model.exchange()->send_to_all(bytes, most);
 }
@@ -76,18 +79,18 @@ void Experiment::send_loads() {
 void Experiment::receive_loads() {
   if (model.exchange()->ranks() == 1) return;
   dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
-  std::vector<std::vector<char>> of_boundary(boundaries_.size());
+  std::vector<std::vector<char>> of_contacts(shared_.size());
   for (const dem::Exchange::Received &bytes : model.exchange()->receive_from_all()) {
-    std::size_t at = boundaries_.size() * sizeof(std::uint64_t);
-    for (std::size_t b = 0; b < boundaries_.size(); ++b) {
+    std::size_t at = shared_.size() * sizeof(std::uint64_t);
+    for (std::size_t b = 0; b < shared_.size(); ++b) {
       std::uint64_t count = 0;
       std::memcpy(&count, bytes.data + b * sizeof count, sizeof count);
-      of_boundary[b].insert(of_boundary[b].end(), bytes.data + at, bytes.data + at + count);
+      of_contacts[b].insert(of_contacts[b].end(), bytes.data + at, bytes.data + at + count);
       at += count;
     }
   }
-  for (std::size_t b = 0; b < boundaries_.size(); ++b)
-    boundaries_[b]->take_loads(of_boundary[b]);
+  for (std::size_t b = 0; b < shared_.size(); ++b)
+    shared_[b]->take_loads(of_contacts[b]);
 }
 
 void Experiment::gather_for_boundaries(const Step &step) {

@@ -166,11 +166,12 @@ FrameFile bonds_of(const coupling::PlatenTest &problem, const FrameHead &head) {
 
 void add_boundaries(std::vector<FrameFile> &files, const coupling::PlatenTest &problem, int number) {
   for (const char *series : {"platens", "sleeve"}) {
-    std::vector<const coupling::Boundary *> parts;
+    std::vector<const coupling::Pictured *> parts;
     for (const auto &boundary : problem.boundaries())
-      if (boundary->series() == series) parts.push_back(boundary.get());
+      if (const coupling::Pictured *part = boundary->pictured(); part != nullptr && part->series() == series)
+        parts.push_back(part);
     int index = static_cast<int>(parts.size()) * number;
-    for (const coupling::Boundary *part : parts) {
+    for (const coupling::Pictured *part : parts) {
       std::ostringstream vtu;
       part->write_vtu(vtu);
       files.push_back({series, OutputPaths::frame_name(series, index++),
@@ -185,8 +186,9 @@ FrameFile contacts_of(const coupling::PlatenTest &problem, const FrameHead &head
   std::vector<Vector3> points, normals, shears, forces;
   std::vector<double> normal_force, shear_force, slip;
   std::vector<int> sliding, particle;
-  for (const auto &boundary : problem.boundaries())
-    for (const coupling::ActiveContact &c : boundary->contacts()) {
+  for (const auto &boundary : problem.boundaries()) {
+    if (boundary->pictured() == nullptr) continue;
+    for (const coupling::ActiveContact &c : boundary->pictured()->contacts()) {
       points.push_back(c.point);
       normals.push_back(c.normal);
       shears.push_back(c.shear);
@@ -197,6 +199,7 @@ FrameFile contacts_of(const coupling::PlatenTest &problem, const FrameHead &head
       sliding.push_back(c.sliding ? 1 : 0);
       particle.push_back(problem.model.particles.id[static_cast<std::size_t>(c.particle)]);
     }
+  }
   std::vector<Field> fields{{"normal", normals},
                             {"shear", shears},
                             {"force", forces},

@@ -19,7 +19,7 @@ void ContactLayer::compute_in_lanes(const dem::Particles &p, const fem::LoadedSu
   step.dt = dt, step.travelled = travelled_;
   step.stiffness = stiffness_, step.damping = parameters_.damping;
   step.tangential_ratio = parameters_.tangential_ratio;
-  step.friction_static = parameters_.friction_static, step.friction_dynamic = parameters_.dynamic();
+  step.friction = {parameters_.friction_static, parameters_.dynamic()};
   const fem::SurfaceMesh &surface = body.surface();
   const std::vector<fem::FaceCompliance> &yields = parameters_.face_compliance;
   const kernels::LayerSurface faces{surface.velocities.data(), surface.faces[0].data(), surface.only_shifted,

@@ -69,7 +69,6 @@ void require_ascending(const StateSource &state, const std::string &block) {
 ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSurface &body,
                            const SurfaceContact &parameters)
     : parameters_(parameters),
-      friction_(dem::friction_law(parameters)),
       smallest_radius_(infinite),
       search_(body.surface(), parameters.skin, parameters.instruction_set) {
   check(parameters, particles.has_rotation());
@@ -100,7 +99,7 @@ ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSur
   }
   const bool plain = !parameters.hertz && seat_spring_ == nullptr &&
                      parameters.attachment == Attachment::free &&
-                     (!friction || std::holds_alternative<dem::CoulombFriction>(friction_));
+                     (!friction || parameters.weakening.by == dem::Weakening::By::nothing);
   if (plain && parameters.in_lanes) compute_rows_ = kernels::compute_rows(parameters.instruction_set);
 }
 
@@ -130,7 +129,6 @@ void ContactLayer::set_friction(const dem::SurfaceFriction &friction) {
   require(friction.weakening.by == parameters_.weakening.by,
           "surface contact: friction weakens by another law");
   parameters_ = changed;
-  friction_ = dem::friction_law(changed);
 }
 
 void ContactLayer::seat(int particle, double offset) {

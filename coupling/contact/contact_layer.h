@@ -29,6 +29,7 @@
 #include "base/archive.h"
 #include "coupling/contact/layer_kernel.h"
 #include "coupling/contact/row_load.h"
+#include "coupling/contact/shared_contacts.h"
 #include "coupling/contact/surface_search.h"
 #include "coupling/program/platen_speed.h"
 #include "dem/laws/friction_law.h"
@@ -77,7 +78,7 @@ struct ActiveContact {
   double slip = 0; // m, path slid since the contact closed
 };
 
-class ContactLayer {
+class ContactLayer final : public SharedContacts {
 public:
   // Throws std::invalid_argument, naming the entry, where a parameter is out of range.
   ContactLayer(const dem::Particles &particles, const fem::LoadedSurface &body,
@@ -123,17 +124,13 @@ public:
   // Row of the first particle of a part, after prepare(). Parts ascend by it.
   int particle_of_part(std::size_t part) const;
 
-  // On ranks, which have the same rows: marks the blocks of particles whose rows are worked out here, in
-  // prepare() and compute_part(). All of them where this was not called.
-  void compute_only(const std::vector<char> &own_blocks) { own_blocks_ = own_blocks; }
-  // Between compute_part() and apply_forces(): appends what rows that were worked out here give to body and
-  // sums; and takes what all ranks have appended, one after the other in any order, its own included.
-  void put_loads(std::vector<char> &bytes) const;
-  void take_loads(const std::vector<char> &of_all);
-  std::size_t most_bytes() const; // that any rank can append in a step
-  // The same of everything that a row holds: history and contact, to be told of and kept.
-  void put_rows(std::vector<char> &bytes) const;
-  void take_rows(const std::vector<char> &of_all);
+  // Without a call, prepare() and compute_part() compute all rows.
+  void compute_only(const std::vector<char> &own_blocks) override { own_blocks_ = own_blocks; }
+  std::size_t most_bytes() const override;
+  void put_loads(std::vector<char> &bytes) const override;
+  void take_loads(const std::vector<char> &of_all) override;
+  void put_rows(std::vector<char> &bytes) const override;
+  void take_rows(const std::vector<char> &of_all) override;
 
   // Of the last add_forces.
   std::vector<ActiveContact> contacts() const; // ascending particle rows
@@ -238,7 +235,6 @@ private:
   void keep_result(std::size_t k, const RowForce &row, const Vector3 &centre);
 
   SurfaceContact parameters_;
-  dem::FrictionLaw friction_;
   kernels::ComputeRows compute_rows_ = nullptr; // null: row by row
   double stiffness_ = 0;                        // N/m, of the whole contact
   double smallest_radius_;

@@ -277,10 +277,11 @@ void ContactLayer::tangential_force(std::size_t row, const Kinematics &motion, d
   // Glue has no limit, and any force presses it.
   const CoulombFriction glue{{infinite, infinite}};
   const double pressing = tied(row) ? 1 : (result.active ? result.normal_force : 0);
-  const CoulombFriction *constant = tied(row) ? &glue : std::get_if<CoulombFriction>(&friction_);
+  const dem::FrictionLaw friction = dem::friction_law(parameters_);
+  const CoulombFriction *constant = tied(row) ? &glue : std::get_if<CoulombFriction>(&friction);
   const CoulombFriction::Result t = constant != nullptr
                                         ? (*constant)(state, stretch, pressing, k_t)
-                                        : dem::slide_weakening(friction_, state, stretch, pressing, k_t, dt);
+                                        : dem::slide_weakening(friction, state, stretch, pressing, k_t, dt);
   result.spring = state;
   result.shear = t.force;
   result.slip = t.slip;

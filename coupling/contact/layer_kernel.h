@@ -8,6 +8,7 @@
 #include "coupling/contact/row_load.h"
 #include "coupling/contact/surface_search.h"
 #include "dem/instruction_set.h"
+#include "dem/laws/coulomb_friction.h"
 
 namespace platen::coupling::kernels {
 
@@ -38,7 +39,7 @@ struct LayerStep {
   double stiffness = 0;        // N/m, of the whole contact
   double damping = 0;          // fraction of critical
   double tangential_ratio = 0; // k_t / k_n
-  double friction_static = 0, friction_dynamic = 0;
+  dem::CoulombFriction::Parameters friction;
   double travelled = 0; // m, as in idle_until
 };
 

@@ -118,10 +118,11 @@ PLATEN_INLINE void rub(const LayerColumns &c, const LayerStep &s, const Rows &r,
   for (int l = 0; l < lanes; ++l)
     slid[l] = c.sliding[r.row[l]];
   const LaneMask slides = dem::kernels::set_lanes_of(r.follow ? c.sliding + r.row[0] : slid);
-  const Simd slides_above = How::choose(slides, Simd(s.friction_dynamic), Simd(s.friction_static));
+  const Simd slides_above =
+      How::choose(slides, Simd(s.friction.friction_dynamic), Simd(s.friction.friction_static));
   const auto f =
       dem::spring_with_friction<How>(choose<How>(touched, turned, spring), scale(Simd(-s.dt), slide),
-                                     push.normal_force, k_t, slides_above, Simd(s.friction_dynamic));
+                                     push.normal_force, k_t, slides_above, Simd(s.friction.friction_dynamic));
   push.shear = f.spring;
   push.friction_loss = f.dissipated;
   push.elastic = push.elastic + Simd(0.5) * dot(f.spring, f.spring) / k_t;

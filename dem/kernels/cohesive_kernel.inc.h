@@ -9,17 +9,10 @@
 namespace platen::dem::kernels {
 namespace {
 
-// Laws that need only the pose of intact bonds.
 template <class Law, class = void>
-constexpr bool is_quick_while_whole = false;
+constexpr bool has_quick_path = false;
 template <class Law>
-constexpr bool is_quick_while_whole<Law, std::enable_if_t<Law::quick_while_whole>> = true;
-
-// Laws that compute undamaged bonds from their motion, without the data for damage.
-template <class Law, class = void>
-constexpr bool is_quick_while_sound = false;
-template <class Law>
-constexpr bool is_quick_while_sound<Law, std::enable_if_t<Law::quick_while_sound>> = true;
+constexpr bool has_quick_path<Law, std::void_t<decltype(Law::intact_members)>> = true;
 
 PLATEN_INLINE Rotation<Simd> unturned() {
   const Simd none(0.0);
@@ -34,6 +27,14 @@ PLATEN_INLINE BondMotion<Simd> pose_of(const Triple<Simd> &distance, const Ends 
   else
     return {distance, unturned(), unturned()};
 }
+
+// The argument of a quick path that does not read motion.
+template <class Rows>
+struct PairAtRest {
+  const Ends &ends;
+  Triple<Simd> distance = distances(ends);
+  PLATEN_INLINE BondMotion<Simd> pose() const { return pose_of<Rows>(distance, ends); }
+};
 
 // Distance and relative velocity of the ends of each bond: from the rows, or from the particles' columns if
 // the rows have no velocities.
@@ -181,50 +182,46 @@ PLATEN_INLINE Simd add_lanes(const CohesiveColumns &c, const Law &law, std::size
       add_lanes_of_broken<Rows, factors>(c, law, k, ends, dt);
       return Simd(0.0);
     }
-  CohesiveResponse<Simd> response;
-  if constexpr (is_quick_while_whole<Law>) {
-    bool changed = false;
-    const Triple<Simd> distance = distances(ends);
-    const auto pose = [&] { return pose_of<Rows>(distance, ends); };
-    if (!law.advance_whole(s, geometry<Law>(c.bonds, k, factors), distance, pose, response, changed))
-      return add_any_lanes<Rows, factors, dashpots>(c, law, k, ends, dt, power);
-    if (changed) keep_scalars<Law::scalars_while_whole>(c.memory, k, s);
-    add_dashpots<Rows, dashpots>(c.bonds, k, ends, response, power);
-    scatter<Rows>(ends, response.force, response.torque_i, response.torque_j);
-  } else if constexpr (is_quick_while_sound<Law>) {
+  if constexpr (has_quick_path<Law>) {
     const CohesiveGeometry<Simd> g = geometry<Law>(c.bonds, k, factors);
-    const CohesiveMotion<Simd> m = motion_of<Rows, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt);
-    bool yielded = false;
-    if (!law.advance_sound(s, g, m, response, yielded))
-      return add_any_lanes<Rows, factors, dashpots>(c, law, k, ends, dt, power);
-    keep_sound<Law>(c.memory, k, s, yielded);
-    add_dashpots<Rows, dashpots>(c.bonds, k, ends, response, power);
-    scatter_response<Rows, Law>(ends, g, m.distance, response);
-  } else {
-    return add_any_lanes<Rows, factors, dashpots>(c, law, k, ends, dt, power);
+    const auto advance = [&](const auto &pair) __attribute__((always_inline)) {
+      CohesiveResponse<Simd> response;
+      bool yielded = false;
+      if (!law.advance_intact(s, g, pair, response, yielded)) return false;
+      keep_intact<Law>(c.memory, k, s, yielded);
+      add_dashpots<Rows, dashpots>(c.bonds, k, ends, response, power);
+      scatter_response<Rows, Law>(ends, g, pair.distance, response);
+      return true;
+    };
+    bool done = false;
+    if constexpr (reads_motion<Law>)
+      done = advance(motion_of<Rows, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt));
+    else
+      done = advance(PairAtRest<Rows>{ends});
+    if (done) return Simd(0.0);
   }
-  return Simd(0.0);
+  return add_any_lanes<Rows, factors, dashpots>(c, law, k, ends, dt, power);
 }
 
 // Prefetches the coming rows of a column.
 template <class Value>
-PLATEN_INLINE void foresee(const Value *row) {
-  constexpr std::size_t packs_ahead = 6, bytes = lanes * sizeof(Value), line = 64;
-  const char *to_come = reinterpret_cast<const char *>(row) + packs_ahead * bytes;
+PLATEN_INLINE void prefetch(const Value *row) {
+  constexpr std::size_t vectors_ahead = 6, bytes = lanes * sizeof(Value), line = 64;
+  const char *to_come = reinterpret_cast<const char *>(row) + vectors_ahead * bytes;
   for (std::size_t byte = 0; byte < bytes; byte += line)
     __builtin_prefetch(to_come + byte, 0, 2);
 }
-// Prefetches all columns of laws that change most of them in each step: a core by itself does not prefetch so
-// many. (For laws that read fewer columns it does, and explicit prefetches only cost time.)
+// Prefetches all columns of laws that read motion: a core by itself does not prefetch so many. (For laws that
+// read fewer columns it does, and explicit prefetches only cost time.)
 template <class Law>
-PLATEN_INLINE void foresee_packs(const CohesiveColumns &c, std::size_t k) {
-  if constexpr (is_quick_while_sound<Law>) {
+PLATEN_INLINE void prefetch_next(const CohesiveColumns &c, std::size_t k) {
+  if constexpr (reads_motion<Law>) {
     const BondColumns &b = c.bonds;
-    if constexpr (Law::needs_orientations) foresee(b.reference + k);
-    foresee(b.ends + k), foresee(b.rest_length + k), foresee(b.lever + k);
-    foresee(b.normal_stiffness + k), foresee(b.bond_radius + k);
+    if constexpr (Law::needs_orientations) prefetch(b.reference + k);
+    prefetch(b.ends + k), prefetch(b.rest_length + k), prefetch(b.lever + k);
+    prefetch(b.normal_stiffness + k), prefetch(b.bond_radius + k);
     typename Law::template State<Simd> state;
-    for_each_memory(c.memory, k, state, [](const auto *column, auto &) { foresee(column); });
+    for_each_memory(c.memory, k, state, [](const auto *column, auto &) { prefetch(column); });
   }
 }
 
@@ -239,7 +236,7 @@ BlockFindings compute_forces(const CohesiveColumns &c, const BlockColumns &block
   };
   std::size_t k = first;
   for (; k + lanes <= last; k += lanes) {
-    foresee_packs<Law>(c, k);
+    prefetch_next<Law>(c, k);
     const Ends ends = ends_of(c.bonds, block, k);
     look(k, k + lanes, add_lanes<Rows, factors, dashpots>(c, law, k, ends, dt, power));
   }

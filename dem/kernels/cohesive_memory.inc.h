@@ -60,26 +60,13 @@ PLATEN_INLINE void for_each_memory(const MemoryColumns &columns, std::size_t k, 
       state);
 }
 
-// Writes the first `count` members of a state, all scalars, to their columns.
-template <std::size_t count, class State>
-PLATEN_INLINE void keep_scalars(const MemoryColumns &columns, std::size_t k, State &state) {
-  std::size_t at = 0;
-  State::describe(
-      [&](const char *, const char *, auto &member) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(member)>, Simd>)
-          if (at < count) store(columns.scalar[at] + k, member);
-        ++at;
-      },
-      state);
-}
-
-// Writes the members of a state that the law changes for undamaged bonds to their columns.
+// Stores the members of a state that the quick path of a law changes.
 template <class Law, class State>
-PLATEN_INLINE void keep_sound(const MemoryColumns &columns, std::size_t k, State &state, bool yielded) {
+PLATEN_INLINE void keep_intact(const MemoryColumns &columns, std::size_t k, State &state, bool yielded) {
   std::size_t scalars = 0, vectors = 0, member_at = 0;
   State::describe(
       [&](const char *, const char *, auto &member) {
-        const Changes how = Law::sound_members[member_at++];
+        const Changes how = Law::intact_members[member_at++];
         const bool changes = how == Changes::always || (how == Changes::rarely && yielded);
         if constexpr (std::is_same_v<std::decay_t<decltype(member)>, Simd>) {
           double *column = columns.scalar[scalars++];

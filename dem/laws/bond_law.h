@@ -61,11 +61,12 @@ inline bool failed_rows_last(const BondLaw &law) {
   return std::visit([](const auto &l) { return keeps_failed_last<std::decay_t<decltype(l)>>; }, law);
 }
 
-// Laws that need the motion of the particles in every step; others need it only for broken bonds, or never.
+// Laws whose quick path (cohesive_form.h) reads how a bond's particles move; others do so where a bond is
+// broken or breaks, or never.
 template <class Law, class = void>
 constexpr bool reads_motion = false;
 template <class Law>
-constexpr bool reads_motion<Law, std::enable_if_t<Law::quick_while_sound>> = true;
+constexpr bool reads_motion<Law, std::enable_if_t<Law::intact_reads_motion>> = true;
 inline bool law_reads_motion(const BondLaw &law) {
   return std::visit([](const auto &l) { return reads_motion<std::decay_t<decltype(l)>>; }, law);
 }

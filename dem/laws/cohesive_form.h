@@ -6,6 +6,14 @@
 
 namespace platen::dem {
 
+// A law may have a quick path for bonds that are intact and stay so, which most are at most times:
+//   intact_members        how often it changes each member of the State, in the order of describe();
+//   intact_reads_motion   whether it gets a CohesiveMotion; otherwise a pair with `distance` and pose();
+//   advance_intact(state, geometry, motion or pair, response, yielded)
+// Returns false where one bond of a SIMD vector is damaged or may become so: then the state is discarded, and
+// operator() computes all of them. Members that change rarely are stored only where `yielded`.
+enum class Changes { never, rarely, always };
+
 template <class Real>
 struct CohesiveGeometry {
   Real rest_length;                 // |D|, m

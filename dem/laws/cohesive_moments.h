@@ -30,11 +30,11 @@ struct BendingCohesive {
   CohesiveResponse<Real> operator()(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
                                     const CohesiveMotion<Real> &m) const;
   // As in the law without moments.
-  static constexpr bool quick_while_sound = true, failed_rows_last = true;
-  static constexpr const auto &sound_members = ElastoDamagePlastic::sound_members;
+  static constexpr bool intact_reads_motion = true, failed_rows_last = true;
+  static constexpr const auto &intact_members = ElastoDamagePlastic::intact_members;
   template <class Real>
-  bool advance_sound(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g, const CohesiveMotion<Real> &m,
-                     CohesiveResponse<Real> &r, bool &yielded) const;
+  bool advance_intact(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g, const CohesiveMotion<Real> &m,
+                      CohesiveResponse<Real> &r, bool &yielded) const;
   template <class Real>
   static Real failed(const CohesiveState<Real> &s) {
     return ElastoDamagePlastic::failed(s);
@@ -109,11 +109,11 @@ PLATEN_INLINE CohesiveResponse<Real> BendingCohesive::operator()(CohesiveState<R
 }
 
 template <class Real>
-PLATEN_INLINE bool BendingCohesive::advance_sound(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
-                                                  const CohesiveMotion<Real> &m, CohesiveResponse<Real> &r,
-                                                  bool &yielded) const {
+PLATEN_INLINE bool BendingCohesive::advance_intact(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
+                                                   const CohesiveMotion<Real> &m, CohesiveResponse<Real> &r,
+                                                   bool &yielded) const {
   const Whole<Real> w = whole(g, BondMotion<Real>{m.distance, m.turn_i, m.turn_j});
-  if (!law.template advance_sound<true>(w.skin, s, g, m, r, yielded)) return false;
+  if (!law.template advance_intact<true>(w.skin, s, g, m, r, yielded)) return false;
   const Triple<Real> moment = cross(m.distance, r.force);
   r.torque_i = scale(g.lever, moment) + w.moments.torque_i;
   r.torque_j = scale(Real(1.0 - g.lever), moment) + w.moments.torque_j;

@@ -50,9 +50,6 @@ template <class Real>
 struct SkinStress {
   Real bending, twisting; // Pa
 };
-// How often a step of intact bonds changes a member of their state.
-enum class Changes { never, rarely, always };
-
 struct ElastoDamagePlastic {
   static constexpr const char *word = "elasto damage plastic";
   struct Parameters {
@@ -105,21 +102,18 @@ struct ElastoDamagePlastic {
   template <bool moments, class Real>
   CohesiveResponse<Real> advance_under(const SkinStress<Real> &skin, CohesiveState<Real> &s,
                                        const CohesiveGeometry<Real> &g, const CohesiveMotion<Real> &m) const;
-  // The same for bonds without damage that get none in this step: most bonds at most times. Returns false if
-  // one bond of a SIMD vector has damage or may get it; then `r` is not set and the state must be discarded.
-  // `sound_members`, in the order of State::describe, gives the members of the state that this call changes;
-  // the rarely changed ones only where `yielded`.
-  static constexpr bool quick_while_sound = true;
-  static constexpr Changes sound_members[] = {Changes::rarely, Changes::never,  Changes::never,
-                                              Changes::never,  Changes::always, Changes::always};
+  // The quick path of bonds without damage (cohesive_form.h).
+  static constexpr bool intact_reads_motion = true;
+  static constexpr Changes intact_members[] = {Changes::rarely, Changes::never,  Changes::never,
+                                               Changes::never,  Changes::always, Changes::always};
   template <bool moments, class Real>
-  bool advance_sound(const SkinStress<Real> &skin, CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
-                     const CohesiveMotion<Real> &m, CohesiveResponse<Real> &r, bool &yielded) const;
+  bool advance_intact(const SkinStress<Real> &skin, CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
+                      const CohesiveMotion<Real> &m, CohesiveResponse<Real> &r, bool &yielded) const;
   template <class Real>
-  PLATEN_INLINE bool advance_sound(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
-                                   const CohesiveMotion<Real> &m, CohesiveResponse<Real> &r,
-                                   bool &yielded) const {
-    return advance_sound<false>(SkinStress<Real>{}, s, g, m, r, yielded);
+  PLATEN_INLINE bool advance_intact(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
+                                    const CohesiveMotion<Real> &m, CohesiveResponse<Real> &r,
+                                    bool &yielded) const {
+    return advance_intact<false>(SkinStress<Real>{}, s, g, m, r, yielded);
   }
   // Failed bonds are stored behind the others, so that all bonds of a SIMD vector are of one kind.
   static constexpr bool failed_rows_last = true;
@@ -408,10 +402,10 @@ PLATEN_INLINE bool ElastoDamagePlastic::may_be_damaged(const CohesiveState<Real>
 }
 
 template <bool moments, class Real>
-PLATEN_INLINE bool ElastoDamagePlastic::advance_sound(const SkinStress<Real> &skin, CohesiveState<Real> &s,
-                                                      const CohesiveGeometry<Real> &g,
-                                                      const CohesiveMotion<Real> &m,
-                                                      CohesiveResponse<Real> &r, bool &yielded) const {
+PLATEN_INLINE bool ElastoDamagePlastic::advance_intact(const SkinStress<Real> &skin, CohesiveState<Real> &s,
+                                                       const CohesiveGeometry<Real> &g,
+                                                       const CohesiveMotion<Real> &m,
+                                                       CohesiveResponse<Real> &r, bool &yielded) const {
   if (any_positive(larger(s.tension_damage, s.shear_damage))) return false;
   const Real ks = shear_ratio() * g.normal_stiffness;
   const Step<Real> step(*this, s, g, m);

@@ -84,15 +84,14 @@ struct YieldingParallelBond {
   template <class Real>
   CohesiveResponse<Real> operator()(State<Real> &s, const CohesiveGeometry<Real> &g,
                                     const CohesiveMotion<Real> &m) const;
-  // The same, from the pose alone, for bonds that are intact and stay intact: most bonds at most times.
-  // Returns false if one bond of a SIMD vector is broken or breaks in this step; then nothing is changed or
-  // returned. `pose()` gives a BondMotion at `distance`; it is called after the yield is known, because the
-  // registers cannot hold all of it.
-  static constexpr bool quick_while_whole = true;
-  static constexpr std::size_t scalars_while_whole = 1; // number of first members of State that it changes
-  template <class Real, class Pose>
-  bool advance_whole(State<Real> &s, const CohesiveGeometry<Real> &g, const Triple<Real> &distance,
-                     const Pose &pose, CohesiveResponse<Real> &r, bool &changed) const;
+  // The quick path of intact bonds (cohesive_form.h), from their pose alone. It calls pair.pose() once the
+  // yield is known, because not all of it fits the registers.
+  static constexpr bool intact_reads_motion = false;
+  static constexpr Changes intact_members[] = {Changes::rarely, Changes::never, Changes::never,
+                                               Changes::never};
+  template <class Real, class Pair>
+  bool advance_intact(State<Real> &s, const CohesiveGeometry<Real> &g, const Pair &pair,
+                      CohesiveResponse<Real> &r, bool &yielded) const;
   // Broken bonds are stored behind intact ones, so that all bonds of a SIMD vector are of one kind.
   static constexpr bool failed_rows_last = true;
   // For a SIMD vector of broken bonds: whether all are separated now and were before, so that no force acts
@@ -205,18 +204,18 @@ PLATEN_INLINE Real YieldingParallelBond::yields(const Real &plastic, const Real 
   return positive_part(Real(elastic - compression.envelope(elastic) - plastic));
 }
 
-template <class Real, class Pose>
-PLATEN_INLINE bool YieldingParallelBond::advance_whole(State<Real> &s, const CohesiveGeometry<Real> &g,
-                                                       const Triple<Real> &distance, const Pose &pose,
-                                                       CohesiveResponse<Real> &r, bool &changed) const {
+template <class Real, class Pair>
+PLATEN_INLINE bool YieldingParallelBond::advance_intact(State<Real> &s, const CohesiveGeometry<Real> &g,
+                                                        const Pair &pair, CohesiveResponse<Real> &r,
+                                                        bool &yielded) const {
   if (any_positive(s.broken)) return false;
-  const Real length = root(dot(distance, distance));
+  const Real length = root(dot(pair.distance, pair.distance));
   const Real elastic = g.normal_stiffness * (g.rest_length - length);
   const Real yield = yields(s.plastic, elastic), plastic = s.plastic + yield;
   Triple<Real> slip;
-  const BondResponse<Real> bond = whole(plastic, g, pose(), slip);
+  const BondResponse<Real> bond = whole(plastic, g, pair.pose(), slip);
   if (!all_positive(Real(-bond.excess))) return false;
-  changed = any_positive(yield);
+  yielded = any_positive(yield);
   s.plastic = plastic;
   tell_whole(bond, Real(plastic - elastic), r);
   return true;
