@@ -1,4 +1,4 @@
-// Vectors that begin at a cache line, so that whole registers of them never lie across two.
+// Vectors that begin at a cache line, so that a full register of their elements never crosses two lines.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What the numbers of a block of a state can be: said once beside the column or the member, asked of every
+// Allowed numbers of a block of a state: defined once next to the column or the member, checked for every
 // state before it is read.
 #pragma once
 
@@ -10,22 +10,21 @@
 
 namespace platen {
 
-// Finite numbers, where nothing else is said.
+// By default: finite numbers.
 struct Allowed {
-  // Of the numbers of a row together: a unit vector or quaternion; one_or_none: all 0 where there is none
-  // yet.
+  // Norm of the numbers of a row: a unit vector or quaternion; one_or_none: or all 0 where there is none yet.
   enum class Length { any, one, one_or_none };
   // The length of a unit row differs from 1 by rounding, some 1e-16; a row that differs by more was damaged.
   static constexpr double length_tolerance = 1e-9;
-  // Squares of larger numbers, and their cubes, are not finite, and neither is what is worked out from them:
-  // no length, force or energy of a test comes near.
+  // Squares and cubes of larger numbers are not finite, nor are the values computed from them: no length,
+  // force or energy of a test comes near this limit.
   static constexpr double largest = 1e100;
 
   Allowed() = default;
   Allowed(const Range &each) : range(each) {} // no explicit: column("mass", "kg", above(0))
 
-  Range range;          // of each number
-  bool nan_too = false; // of what is not measured, or not yet
+  Range range;
+  bool nan_too = false; // for values not measured, or not yet
   bool infinite_too = false;
   Length length = Length::any;
 
@@ -49,7 +48,7 @@ inline Allowed or_infinite(const Range &range) {
   allowed.infinite_too = true;
   return allowed;
 }
-// Of what was measured and decides nothing.
+// For measured values that have no effect on the run.
 inline Allowed any_value() {
   Allowed allowed = or_nan();
   allowed.infinite_too = true;
@@ -65,7 +64,7 @@ inline Allowed unit_length_or_zero() {
   allowed.length = Allowed::Length::one_or_none;
   return allowed;
 }
-// The number of a row of a table with so many.
+// Row number in a table of `rows` rows.
 inline Allowed row_of(std::size_t rows) {
   return between(0, static_cast<double>(rows) - 1);
 }

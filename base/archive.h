@@ -1,4 +1,4 @@
-// State by name. A part of an experiment describes once what it holds,
+// State by name. A part of an experiment describes its data once,
 //
 //   void describe(Archive &archive) {
 //     archive.version(1);
@@ -6,9 +6,9 @@
 //   }
 //
 // and the same lines write it to a checkpoint and read it back, keep it in memory, list and compare it. Names
-// are paths, "experiment/sleeve/pressure". What an older state lacks has a value that is stated here, or the
-// state is refused by the name of what it lacks. After name, value and unit may stand what its numbers can be
-// (allowed.h); what goes together with other blocks is asked in describe() of looks_at().
+// are paths, "experiment/sleeve/pressure". A value that an older state lacks gets a default that is given
+// here; without a default the state is refused with the name of the value. The allowed numbers (allowed.h)
+// may follow name, value and unit; describe() with looks_at() checks the consistency of blocks.
 #pragma once
 
 #include <functional>
@@ -25,8 +25,8 @@ namespace platen {
 
 class StateSource; // state.h
 
-// A state that cannot be read: what it lacks, what is of another kind or size, or holds a number that cannot
-// be, by name.
+// A state that cannot be read. The message names the block that is missing, has another type or size, or
+// contains a number that is not allowed.
 class StateError : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
@@ -38,20 +38,20 @@ public:
   Archive(const Archive &) = delete;
   Archive &operator=(const Archive &) = delete;
 
-  // Whether describe() fills the part from a state: what is derived from it has to be made anew at its end.
+  // Whether describe() fills the part from a state: derived data must be rebuilt at the end of describe().
   virtual bool reads() const = 0;
-  // The state that is about to be read, while it is only looked at: describe() is called once for that before
-  // it is called to read, changes nothing, and throws StateError where blocks do not go together. Else null.
+  // The state that is about to be read, in the checking pass: describe() is called once for it before the
+  // reading pass, changes nothing, and throws StateError where blocks do not match. Otherwise null.
   virtual const StateSource *looks_at() const { return nullptr; }
   bool writes() const { return !reads() && looks_at() == nullptr; }
-  // In the state, of a block of the part that is described.
+  // Path in the state of a block of the described part.
   std::string path(const std::string &name) const { return path_ + name; }
 
-  // Of the part that is described; the first line of describe(). Returns the version of the state that is
+  // Version of the described part; the first line of describe(). Returns the version of the state that is
   // read, never above `known`: a newer one is refused with StateError.
   int version(int known);
 
-  // A number, an array or a struct of numbers (block_type.h); flags too.
+  // A number, a flag, an array or a struct of numbers (block_type.h).
   template <class T>
   void operator()(const std::string &name, T &value, const std::string &unit = "1") {
     (*this)(name, value, unit, allowed_of<T>());
@@ -60,7 +60,7 @@ public:
   void operator()(const std::string &name, T &value, const std::string &unit, const Allowed &allowed) {
     block(path(name), block_type<T>(unit), {&value, 1, {}}, false, allowed);
   }
-  // The same of what states lack that were written before it was added: it is then `lacking`.
+  // The same for a value that is not in older states: it is then `lacking`.
   template <class T>
   void operator()(const std::string &name, T &value, const std::string &unit, const T &lacking,
                   const Allowed &allowed = allowed_of<T>()) {
@@ -68,7 +68,7 @@ public:
   }
   void text(const std::string &name, std::string &text);
 
-  // As many values as were stored.
+  // All stored values; `values` is resized.
   template <class T>
   void rows(const std::string &name, std::vector<T> &values, const std::string &unit = "1",
             const Allowed &allowed = {}) {
@@ -78,17 +78,17 @@ public:
     };
     block(path(name), block_type<T>(unit), {values.data(), values.size(), resize}, false, allowed);
   }
-  // As many as there are; a state with more or fewer is refused.
+  // The size of `values` is fixed; a state with more or fewer is refused.
   template <class T>
   void same_rows(const std::string &name, std::vector<T> &values, const std::string &unit = "1",
                  const Allowed &allowed = {}) {
     block(path(name), block_type<T>(unit), {values.data(), values.size(), {}}, false, allowed);
   }
-  // All columns by name, with as many rows as were stored; or with as many as there are.
+  // All columns by name. table() takes the stored number of rows, same_table() requires the current one.
   void table(const std::string &name, Table &table);
   void same_table(const std::string &name, Table &table);
 
-  // What another class describes, under a name of its own.
+  // Calls describe() of another class, under a name of its own.
   template <class Part>
   void part(const std::string &name, Part &part) {
     const Scope scope(*this, name);
@@ -101,9 +101,9 @@ protected:
     void *data = nullptr;
     std::size_t count = 0;
     std::function<void *(std::size_t)> resize; // none: the number of rows is fixed
-    bool is_local = false;                     // to describe(): filled by an archive that only looks, too
+    bool is_local = false;                     // local in describe(): filled in the checking pass, too
   };
-  // Writes, looks at or fills the rows; false, having done nothing, where the state lacks them and may.
+  // Writes, checks or fills the rows; false, with no effect, where the state lacks them and `may_lack`.
   virtual bool block(const std::string &path, const BlockType &type, const Rows &rows, bool may_lack,
                      const Allowed &allowed) = 0;
 
@@ -127,7 +127,7 @@ private:
   }
   void columns_of(Table &table, bool same_size);
 
-  std::string path_; // of the part that is described, with a slash at its end
+  std::string path_; // of the described part, with a slash at its end
 };
 
 } // namespace platen

@@ -18,13 +18,13 @@ struct BlockMatrix {
   std::size_t rows() const { return begin.size() - 1; }
   Real *at(std::size_t k) { return block.data() + k * n * n; }
   const Real *at(std::size_t k) const { return block.data() + k * n * n; }
-  // The block of a row whose columns ascend; it must be there.
+  // The block (row, col), which must exist; the columns of the row must ascend.
   Real *find(std::size_t row, int col) {
     const auto first = column.begin() + static_cast<std::ptrdiff_t>(begin[row]);
     const auto last = column.begin() + static_cast<std::ptrdiff_t>(begin[row + 1]);
     return at(static_cast<std::size_t>(std::lower_bound(first, last, col) - column.begin()));
   }
-  // Zeros for all blocks of the columns.
+  // Sets all blocks to zero.
   void clear_blocks() { block.assign(column.size() * n * n, Real{}); }
 };
 

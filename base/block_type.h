@@ -1,4 +1,4 @@
-// What the rows of a block of numbers are: the same words for columns of tables, states in memory and files.
+// Type of the rows of a block of numbers: the same for columns of tables, states in memory and files.
 #pragma once
 
 #include <array>
@@ -30,8 +30,8 @@ inline BlockType text_type() {
 // "8-byte floating-point numbers (m/s), 3 in a row".
 std::string describe(const BlockType &type);
 
-// The kind of number that a value is made of. A struct of numbers of one kind without padding says it beside
-// its definition: template <> struct NumbersOf<Vector3> { using Number = double; };
+// The kind of number that a value consists of. A struct of numbers of one kind without padding declares it
+// after its definition: template <> struct NumbersOf<Vector3> { using Number = double; };
 template <class T>
 struct NumbersOf {
   static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>, "say what numbers this is made of");

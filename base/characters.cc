@@ -86,7 +86,7 @@ std::string name_of(const Decoded &one, const char *name) {
   return std::string(number.data()) + " (" + name + ")";
 }
 
-// The first character that `name` has a name for.
+// The first character for which `name` returns a name.
 template <class Name>
 std::optional<Character> first_named(std::string_view text, const Name &name) {
   Character found;

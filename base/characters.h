@@ -1,4 +1,4 @@
-// Characters of a text (UTF-8) that a reader does not see, or takes for others, and its line ends.
+// Characters of a text (UTF-8) that are invisible or look like others, and its line ends.
 #pragma once
 
 #include <cstddef>
@@ -14,13 +14,13 @@ struct Character {
   std::string name;              // "U+00A0 (no-break space)"
 };
 
-// The first character that shows nothing, or a blank that is none, or a byte that is no UTF-8. Blanks, tabs,
-// line ends and other controls of ASCII are not meant.
+// The first character that is invisible, a blank other than the ASCII one, or a byte that is not UTF-8. ASCII
+// blanks, tabs, line ends and other controls do not count.
 std::optional<Character> first_unseen(std::string_view text);
-// The first character that looks like one of ASCII and is another: Cyrillic, Greek (but for the micro sign),
-// full-width letters, dashes, quotes, dots.
+// The first character that looks like an ASCII character but is another one: Cyrillic, Greek (except the
+// micro sign), full-width letters, dashes, quotes, dots.
 std::optional<Character> first_look_alike(std::string_view text);
-// "U+00A0 (no-break space) in column 18" of the first one of either kind; "" where there is none.
+// "U+00A0 (no-break space) in column 18" for the first one of either kind; "" where there is none.
 std::string text_of_odd_character(std::string_view text);
 
 // With \n in place of \r\n and of \r.

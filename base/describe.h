@@ -4,10 +4,9 @@
 //   static void describe(Visitor &&v, Self &p) {
 //     v("stiffness_ratio", p.stiffness_ratio, "1", between(0, 5), "Shear over normal stiffness, k_s / k_n.");
 //   }
-// After the name of a member and the member itself come, of a number or a list of them: unit, range and a
-// sentence; of a whole number: range and a sentence; of an enum: its words and a sentence; of a flag, or of a
-// type that describes itself in no other way: a sentence. From it follow what the library refuses, and what a
-// scene may say.
+// After the name of a member and the member itself follow, for a number or a list of numbers: unit, range and
+// a sentence; for an integer: range and a sentence; for an enum: its words and a sentence; for a flag, or any
+// other type: a sentence. These define what the library refuses and what a scene may contain.
 #pragma once
 
 #include <cmath>
@@ -21,14 +20,14 @@
 
 namespace platen {
 
-// Of a number that has no default, or is left to other members.
+// A number that has no default, or follows from other members.
 constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 template <class Enum>
 using Words = std::vector<std::pair<std::string, Enum>>;
 
-// A member of a struct of parameters that cannot be what it is: "ParallelBond: stiffness_ratio = -1 is out of
-// range. Allowed: 0 ... 5." `reason` goes after the value.
+// A member of a struct of parameters has a wrong value: "ParallelBond: stiffness_ratio = -1 is out of range.
+// Allowed: 0 ... 5." `reason` follows the value.
 class BadParameter : public std::invalid_argument {
 public:
   BadParameter(std::string in, std::string of, const std::string &value, const std::string &why)
@@ -43,7 +42,7 @@ inline std::string allowed_text(const Range &range, const std::string &unit) {
   return range.text() + (unit == "1" ? "" : " " + unit);
 }
 
-// A visitor that throws BadParameter for a number out of its range; what is not given (NaN) is let through.
+// A visitor that throws BadParameter for a number out of its range; it skips what is not given (NaN).
 class RangeCheck {
 public:
   explicit RangeCheck(std::string owner) : owner_(std::move(owner)) {}

@@ -10,7 +10,7 @@ constexpr unsigned limb_bits = 32;
 constexpr std::int64_t limb_mask = 0xffffffff;
 // Bits below the point: the last bit of the smallest double.
 constexpr int unit_exponent = -1074;
-// One addition puts less than 2^34 into a limb.
+// One addition adds less than 2^34 to a limb.
 constexpr std::int32_t most_before_carry = 1 << 28;
 
 constexpr unsigned fraction_bits = 52;
@@ -96,7 +96,7 @@ double ExactSum::value() const {
   while (top > 0 && size.limb_[top - 1] == 0)
     --top;
   if (top == 0) return 0;
-  // The highest three limbs hold more bits than a double; of the rest it counts whether there is any.
+  // The highest three limbs hold more bits than a double; of the rest only whether it is zero matters.
   const std::size_t lowest = top > 3 ? top - 3 : 0;
   Wide leading = 0;
   for (std::size_t k = top; k-- > lowest;)
@@ -115,7 +115,7 @@ void describe(Archive &archive, const std::string &name, ExactSum &sum, const st
   archive(name + "_exact", limbs, "1", ExactSum::Limbs{});
   if (!archive.reads()) return;
   sum = ExactSum::of(limbs, 0);
-  if (sum.value() != value) sum = ExactSum(value); // of an older state, or not finite
+  if (sum.value() != value) sum = ExactSum(value); // an older state, or not finite
 }
 
 } // namespace platen

@@ -7,7 +7,7 @@
 namespace platen {
 namespace {
 
-// Eigenvalues above x, by the signs of the pivots (Sturm).
+// Number of eigenvalues above x, by the signs of the pivots (Sturm).
 int count_above(const std::vector<double> &diagonal, const std::vector<double> &beside, double x) {
   int count = 0;
   double pivot = 1;
@@ -38,7 +38,7 @@ LargestRitzValue bisected_ritz_value(const std::vector<double> &diagonal, const 
     const double middle = 0.5 * (low + high);
     (count_above(diagonal, beside, middle) > 0 ? low : high) = middle;
   }
-  double before = 0, component = 1, sum = 1; // of its eigenvector, from the first row on
+  double before = 0, component = 1, sum = 1; // eigenvector components, from the first row on
   for (std::size_t k = 0; k + 1 < n; ++k) {
     const double next =
         ((high - diagonal[k]) * component - (k == 0 ? 0 : beside[k - 1] * before)) / beside[k];

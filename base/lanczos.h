@@ -1,4 +1,4 @@
-// The largest eigenvalue of a symmetric matrix that is known by its products alone: Lanczos' method.
+// The largest eigenvalue of a symmetric matrix that is only available by its products: Lanczos' method.
 #pragma once
 
 #include <cmath>
@@ -7,16 +7,16 @@
 
 namespace platen {
 
-// The largest eigenvalue of a symmetric tridiagonal matrix, and the size of the last component of its unit
-// eigenvector. `beside`: the entries beside the diagonal, one fewer, above 0; further ones are not read.
+// The largest eigenvalue of a symmetric tridiagonal matrix, and the absolute last component of its unit
+// eigenvector. `beside`: the off-diagonal entries, one fewer, above 0; further ones are not read.
 struct LargestRitzValue {
   double value = 0, last_component = 0;
 };
 using FindRitzValue = LargestRitzValue (*)(const std::vector<double> &diagonal,
                                            const std::vector<double> &beside);
-// By all eigenvectors of Eigen: n^3 operations.
+// Computes all eigenvectors by Eigen: n^3 operations.
 LargestRitzValue largest_ritz_value(const std::vector<double> &diagonal, const std::vector<double> &beside);
-// By bisection: 60 n operations, for those who ask in every iteration. The value is from above.
+// By bisection: 60 n operations, for calls in every iteration. The value is an upper bound.
 LargestRitzValue bisected_ritz_value(const std::vector<double> &diagonal, const std::vector<double> &beside);
 
 struct LanczosLimits {
@@ -24,18 +24,18 @@ struct LanczosLimits {
   int every = 5; // iterations from one Ritz value to the next
   int most = 300;
   double residual = 0.01; // over the Ritz value, at the end
-  double enough = 0;      // ends once the value is known to be below this, after `least_for_enough`
+  double enough = 0;      // ends when the value is certainly below this, after `least_for_enough`
   int least_for_enough = 15;
 };
 
 template <class Vector>
 struct LargestEigenvalue {
-  double value = 0; // from above but for round-off: the Ritz value and its residual (Zhou and Li 2011)
+  double value = 0; // upper bound but for round-off: the Ritz value plus its residual (Zhou and Li 2011)
   int iterations = 0;
   Vector mode; // roughly
 };
 
-// apply(x): the product of the matrix with x. `x`: where to start, not zero. Beside Vector there are
+// apply(x): the product of the matrix with x. `x`: start vector, not zero. Vector needs the functions
 // inner(a, b), add(a, s, b), which is a += s b, and multiply(a, s).
 template <class Vector, class Apply>
 LargestEigenvalue<Vector> largest_eigenvalue(const Apply &apply, Vector x, const LanczosLimits &limits = {},
@@ -60,7 +60,7 @@ LargestEigenvalue<Vector> largest_eigenvalue(const Apply &apply, Vector x, const
     }
     if (look && done > limits.least && residual <= limits.residual * ritz.value) break;
     if (look && done >= limits.least_for_enough && ritz.value + residual < limits.enough) break;
-    if (length <= 1e-14 * ritz.value) break; // x holds all that the matrix makes of it
+    if (length <= 1e-14 * ritz.value) break; // the Krylov space is exhausted
     beside.push_back(length);
     before = std::exchange(x, std::move(y));
     multiply(x, 1 / length);

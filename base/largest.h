@@ -1,4 +1,4 @@
-// The largest of numbers, where one that is not a number must not be passed over.
+// The largest of some numbers, which does not ignore NaN.
 #pragma once
 
 #include <cmath>
@@ -6,14 +6,14 @@
 
 namespace platen {
 
-// std::max and std::fmax keep the other number where one is NaN, and tell a largest that nobody has measured.
+// std::max and std::fmax can ignore a NaN and then return a largest value that is not true.
 class Largest {
 public:
   void add(double value) {
     if (none_ || value > value_ || std::isnan(value)) value_ = value;
     none_ = false;
   }
-  double value() const { return value_; } // NaN of none, and where one of them is NaN
+  double value() const { return value_; } // NaN without numbers, and where one of them is NaN
 
 private:
   double value_ = std::numeric_limits<double>::quiet_NaN();

@@ -5,14 +5,14 @@
 
 namespace platen {
 
-// Parts that may be done in any order and at once.
+// Parts that may run in any order and at the same time.
 struct Loop {
   std::size_t parts = 0;
   void (*call)(const void *body, std::size_t part) = nullptr;
-  const void *body = nullptr; // without its type; outlives the call
+  const void *body = nullptr; // type-erased; must outlive the call
 };
 
-// The loop part(p) for p of [0, parts); `part` outlives it.
+// The loop part(p) for p in [0, parts); `part` must outlive it.
 template <class Part>
 Loop loop_of(std::size_t parts, const Part &part) {
   return {parts, [](const void *body, std::size_t p) { (*static_cast<const Part *>(body))(p); }, &part};

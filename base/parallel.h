@@ -1,5 +1,5 @@
-// Loops over rows on several threads, and sums whose order does not depend on the number of threads. How
-// threads share a loop out is told in thread_pool.h alone.
+// Loops over rows on several threads, and sums whose order does not depend on the number of threads.
+// thread_pool.h describes how threads share a loop.
 #pragma once
 
 #include <algorithm>
@@ -21,11 +21,11 @@ inline std::size_t number_of_blocks(std::size_t rows, std::size_t per_block = bl
 // Threads that loops use now: those of the innermost ThreadLimit, or all that the process may have.
 int loop_threads();
 
-// Every part of both loops, shared out to the threads that loops use (thread_pool.h says how).
+// Runs every part of both loops on the threads of loop_threads() (see thread_pool.h).
 void run_loops(const Loop &first, const Loop &second = {});
 
-// body(first, last, block) for every block of `per_block` rows of [0, rows), and another loop at the same
-// time.
+// body(first, last, block) for every block of `per_block` rows of [0, rows), and at the same time another
+// loop.
 template <class Body>
 void for_each_block(std::size_t rows, const Body &body, std::size_t per_block = block_rows,
                     const Loop &beside = {}) {
@@ -33,10 +33,10 @@ void for_each_block(std::size_t rows, const Body &body, std::size_t per_block = 
   run_loops(loop_of(number_of_blocks(rows, per_block), part), beside);
 }
 
-// Blocks that are listed, ascending, or all of them.
+// Block numbers, ascending.
 using BlockList = std::vector<int>;
 
-// The same for the blocks that are listed, where a list is given.
+// The same for the listed blocks; without a list, for all.
 template <class Body>
 void for_listed_blocks(const BlockList *listed, std::size_t rows, const Body &body, const Loop &beside = {}) {
   if (listed == nullptr) return for_each_block(rows, body, block_rows, beside);
@@ -47,7 +47,7 @@ void for_listed_blocks(const BlockList *listed, std::size_t rows, const Body &bo
   run_loops(loop_of(listed->size(), part), beside);
 }
 
-// body(row) for every row. Rows that cost much are worth a thread in smaller blocks.
+// body(row) for every row. Use smaller blocks for expensive rows.
 template <class Body>
 void for_each(std::size_t rows, const Body &body, std::size_t per_block = block_rows) {
   for_each_block(
@@ -59,8 +59,8 @@ void for_each(std::size_t rows, const Body &body, std::size_t per_block = block_
       per_block);
 }
 
-// Pieces of work that touch nothing in common; each may hold loops of its own. As many threads as pieces or
-// fewer take a piece each; more threads are worth more in the loops inside.
+// Independent pieces of work; each may contain loops of its own. With at most as many threads as pieces, the
+// pieces run in parallel; more threads are used better by the loops inside.
 template <class Piece>
 void at_once(std::size_t pieces, const Piece &piece) {
   if (pieces > 1 && static_cast<std::size_t>(loop_threads()) <= pieces)

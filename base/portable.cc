@@ -12,7 +12,7 @@ static_assert(std::numeric_limits<Real>::digits >= 64, "extended precision is wh
 constexpr Real infinite = std::numeric_limits<Real>::infinity();
 constexpr Real none = std::numeric_limits<Real>::quiet_NaN();
 
-// Constants in parts: the product of a whole number below 2^26 and a first part is exact.
+// Constants in parts: the product of an integer below 2^26 and a first part is exact.
 constexpr Real ln2[] = {0x2c5c85fdf4p-38L, 0xe7bcd5e4f1d9cc02p-103L};
 constexpr Real quarter_turn[] = {0x3243f6a888p-37L, 0x2d18469898p-76L, 0xcc51701b839a2520p-140L};
 constexpr Real half_pi = 0xc90fdaa22168c235p-63L;
@@ -22,7 +22,7 @@ Real nearest(Real x) {
   return static_cast<Real>(static_cast<long>(x + (x < 0 ? -0.5L : 0.5L)));
 }
 
-// Series are cut where what is left out is below 2^-68 of the sum.
+// Series end where the remainder is below 2^-68 of the sum.
 Real exp_of(Real x) {
   if (x != x) return x;
   if (x > 12000) return infinite; // beyond the range of doubles, within that of Real
@@ -79,7 +79,7 @@ SineCosine sine_cosine(double angle) {
   }
 }
 
-// Of t in [0, 1]; the angle is halved twice.
+// For t in [0, 1]; the angle is halved twice.
 Real arc_tangent(Real t) {
   for (int halving = 0; halving < 2; ++halving)
     t = t / (1 + std::sqrt(1 + t * t));
@@ -99,7 +99,7 @@ Real angle_of(Real y, Real x) {
   return y < 0 ? -angle : angle;
 }
 
-// Stirling's series where it is as accurate as the rest, brought there by Gamma(z + 1) = z Gamma(z).
+// Stirling's series, for z large enough to be as accurate as the rest, by Gamma(z + 1) = z Gamma(z).
 Real gamma_of(Real x) {
   if (!(x >= 1)) return none;
   if (x > 172) return infinite;

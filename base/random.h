@@ -10,7 +10,7 @@
 
 namespace platen {
 
-// The next word of splitmix64, which tells neighbouring seeds apart.
+// The next word of splitmix64, very different for neighbouring seeds.
 inline std::uint64_t split_mix(std::uint64_t &state) {
   std::uint64_t z = (state += 0x9e3779b97f4a7c15ULL);
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;

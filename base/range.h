@@ -1,4 +1,4 @@
-// The numbers that a parameter allows.
+// The allowed range of a parameter.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What a caller must hold to.
+// Check of a caller's arguments.
 #pragma once
 
 #include <stdexcept>

@@ -22,7 +22,7 @@ inline std::string shortest_text(double value) {
   return shortest.substr(0, exponent + 1) + std::string(sign, '-') + shortest.substr(digits);
 }
 
-// With six digits, as messages show it.
+// With six digits, for messages.
 inline std::string text_of(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%g", value);

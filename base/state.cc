@@ -22,7 +22,7 @@ T number_at(const char *bytes) {
   return value;
 }
 
-// Calls visit with the number that stands at `bytes`, as what it is.
+// Calls visit with the number at `bytes`, in its own type.
 template <class Visit>
 auto visit_number(const BlockType &type, const char *bytes, const Visit &visit) {
   if (type.kind == Kind::floating)
@@ -40,7 +40,7 @@ auto visit_number(const BlockType &type, const char *bytes, const Visit &visit) 
   }
 }
 
-// Digits that give the number back to the last bit.
+// Digits that restore the number to the last bit.
 std::string number_text(const BlockType &type, const char *bytes) {
   return visit_number(type, bytes, [](auto value) -> std::string {
     if constexpr (std::is_floating_point_v<decltype(value)>) {
@@ -86,8 +86,7 @@ std::string difference_of_rows(const std::string &name, const BlockType &type, c
          unit;
 }
 
-// "finite" is what has a finite square, too (Allowed::largest). "finite, > 0 kg", "0 ... 599", "unit length",
-// "finite, or nan".
+// "finite" means a finite square, too (Allowed::largest). "finite, > 0 kg", "0 ... 599", "finite, or nan".
 std::string words_of(const Allowed &allowed, const BlockType &type) {
   if (allowed.length == Allowed::Length::one) return "a row of length 1";
   if (allowed.length == Allowed::Length::one_or_none) return "a row of length 1, or of zeros";
@@ -98,7 +97,7 @@ std::string words_of(const Allowed &allowed, const BlockType &type) {
          (allowed.nan_too ? ", or nan" : "");
 }
 
-// Of rows of numbers that stand at `bytes`: the first number that is not allowed; `count` where all are.
+// The first of `count` numbers at `bytes` that is not allowed; `count` where all are allowed.
 std::size_t first_fault(const Allowed &allowed, const BlockType &type, const char *bytes, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k)
     if (!visit_number(type, bytes + k * type.bytes,
@@ -115,7 +114,7 @@ double length_of_row(const BlockType &type, const char *bytes) {
   return std::sqrt(sum);
 }
 
-// Throws StateError for the first number of a block that cannot be.
+// Throws StateError for the first number of a block that is not allowed.
 void require_allowed(const StateSource &source, const std::string &name, const StoredBlock &block,
                      const Allowed &allowed) {
   const BlockType &type = block.type;

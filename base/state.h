@@ -1,5 +1,5 @@
-// States as named blocks: what an Archive writes to and reads from, in memory (State) or in a file (a sink
-// and a source of the apps), and what can be told of one without knowing whose it is.
+// States as named blocks: an Archive writes them to and reads them from memory (State) or a file (a sink and
+// a source of the apps). Functions here inspect a state without its owner.
 #pragma once
 
 #include <functional>
@@ -44,14 +44,14 @@ private:
   StateSink &sink_;
 };
 
-// Looks at a state, or reads it; by read_parts() one after the other.
+// Checks a state, or reads it; read_parts() runs both passes.
 class LoadingArchive : public Archive {
 public:
   enum class Pass { look, read };
   LoadingArchive(const StateSource &source, Pass pass) : source_(source), pass_(pass) {}
   bool reads() const override { return pass_ == Pass::read; }
   const StateSource *looks_at() const override { return reads() ? nullptr : &source_; }
-  // After all parts: throws StateError where the source holds what none of them asked for.
+  // After all parts: throws StateError where the source contains a block that no part has requested.
   void require_all_asked() const;
 
 private:
@@ -62,8 +62,8 @@ private:
   std::set<std::string> asked_;
 };
 
-// What describe(archive) describes from a source, whole. Throws StateError where the state is not that of
-// such parts, or `fits` (which is asked last) says so by throwing it: nothing has been changed then.
+// Reads all of a source with describe(archive). Throws StateError where the state does not match these parts,
+// or where `fits` (called last before reading) throws it: nothing has been changed then.
 template <class Describe>
 void read_parts(const StateSource &source, const Describe &describe,
                 const std::function<void()> &fits = nullptr) {
@@ -74,7 +74,7 @@ void read_parts(const StateSource &source, const Describe &describe,
   describe(read);
 }
 
-// One part of a source that holds others too; as read_parts().
+// Reads one part of a source that contains others too, as read_parts().
 template <class Part>
 void read_part(const StateSource &source, const std::string &name, Part &part) {
   LoadingArchive(source, LoadingArchive::Pass::look).part(name, part);
@@ -110,14 +110,14 @@ State state_of(const Part &part) {
   save_part(state, "state", part);
   return state;
 }
-// Throws StateError where the state is not that of such a part, which is then as it was.
+// Throws StateError where the state does not match the part, which then does not change.
 template <class Part>
 void set_state(Part &part, const State &state) {
   read_parts(state, [&](Archive &archive) { archive.part("state", part); });
 }
 
-// Single blocks by hand, for what is no part. The readers throw StateError where the block is missing or
-// holds something else.
+// Single blocks, for data that is not a part. The readers throw StateError where the block is missing or has
+// another type.
 template <class T>
 void add_rows(StateSink &sink, const std::string &name, const std::vector<T> &values,
               const std::string &unit = "1") {
@@ -125,7 +125,7 @@ void add_rows(StateSink &sink, const std::string &name, const std::vector<T> &va
 }
 void add_text(StateSink &sink, const std::string &name, const std::string &text);
 std::string text_of(const StateSource &source, const std::string &name);
-// A block of that type; its number of rows.
+// Number of rows of a block, which must have that type.
 std::size_t rows_of_type(const StateSource &source, const std::string &name, const BlockType &type);
 template <class T>
 std::vector<T> rows_of(const StateSource &source, const std::string &name, const std::string &unit = "1") {
@@ -134,23 +134,23 @@ std::vector<T> rows_of(const StateSource &source, const std::string &name, const
   return values;
 }
 
-// "\"particles/mass\", row 3: -1. Allowed: finite, > 0 kg." As StateError, of a number that was found wrong
-// beside others; `allowed` may be a sentence.
+// "\"particles/mass\", row 3: -1. Allowed: finite, > 0 kg." as StateError, for a number that other checks
+// have found wrong; `allowed` may be a sentence.
 [[noreturn]] void refuse_row(const std::string &name, std::size_t row, const std::string &value,
                              const std::string &allowed);
 
-// Throws StateError where two blocks have another number of rows.
+// Throws StateError where two blocks differ in their number of rows.
 void require_as_many(const StateSource &source, const std::string &name, const std::string &other);
 
-// Least and largest of all numbers of a block, NaN of text and of no rows, and how many others are NaN.
+// Smallest and largest of all numbers of a block (NaN for text and for no rows), and the number of NaN.
 struct BlockRange {
   double least, largest;
   std::size_t not_numbers;
 };
 BlockRange range_of(const StateSource &source, const std::string &name);
 
-// The first block, in the order of `a`, in which two states differ, and where in it: by name, row and number
-// in the row, with both values. One sentence; none where they are the same to the last bit.
+// The first block, in the order of `a`, in which two states differ, with row, number in the row and both
+// values. One sentence; none where the states are equal to the last bit.
 std::optional<std::string> first_difference(const StateSource &a, const StateSource &b);
 
 } // namespace platen

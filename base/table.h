@@ -24,8 +24,8 @@ public:
   const std::string &unit() const { return unit_; } // SI, e.g. "m/s"; "1" where there is none
   virtual std::size_t size() const = 0;
   virtual void resize(std::size_t n) = 0;
-  // Row k becomes the former row order[k]; order may be shorter than the column (gather). `room`: for so many
-  // further rows memory is taken now.
+  // Row k becomes the former row order[k]; order may be shorter than the column (gather). `room`: number of
+  // further rows for which memory is reserved.
   virtual void permute(const std::vector<int> &order, std::size_t room) = 0;
   // The same within the rows from `first` on: row first + k becomes the former row first + order[k].
   virtual void permute_from(std::size_t first, const std::vector<int> &order) = 0;
@@ -33,11 +33,11 @@ public:
   virtual std::size_t bytes_per_row() const = 0;
   virtual void *bytes() = 0;
   virtual const void *bytes() const = 0;
-  // Of a column that states lack which were written before it was added: whether it has a value for them,
-  // and every row that value.
+  // For a column that older states lack: whether it has a default value, and a function that sets all rows to
+  // it.
   virtual bool may_lack() const = 0;
   virtual void fill_lacking() = 0;
-  // What its numbers can be in a state that is read.
+  // Allowed numbers in a state that is read.
   const Allowed &allowed() const { return allowed_; }
   void allow(const Allowed &allowed) { allowed_ = allowed; }
 
@@ -100,8 +100,7 @@ private:
 class Table {
 public:
   // Adds a column of the table's length. The reference stays valid for the life of the table. `lacking`: the
-  // value of its rows in states that were written before there was such a column; without one such a state is
-  // refused.
+  // value of its rows for older states without this column; without a value such a state is refused.
   template <class T>
   Column<T> &add(const std::string &name, const std::string &unit, std::optional<T> lacking = std::nullopt) {
     auto column = std::make_unique<Column<T>>(name, unit, lacking);
@@ -110,7 +109,7 @@ public:
     columns_.push_back(std::move(column));
     return reference;
   }
-  // One whose numbers cannot be all that are finite.
+  // A column whose allowed numbers are not just all finite ones.
   template <class T>
   Column<T> &add(const std::string &name, const std::string &unit, const Allowed &allowed,
                  std::optional<T> lacking = std::nullopt) {

@@ -10,8 +10,8 @@ namespace platen {
 
 namespace {
 
-// Some ten microseconds: longer than what a step does between two loops, short beside what a scheduler gives
-// a thread that others wait for.
+// About ten microseconds: longer than the time between two loops of a step, short compared with the time
+// slice of a scheduler.
 constexpr int checks_before_sleep = 1000;
 
 constexpr std::size_t most_parts = std::numeric_limits<std::uint32_t>::max();
@@ -54,7 +54,7 @@ void ThreadPool::run(const Loop &first, const Loop &second, int threads) {
   if (thrown_) std::rethrow_exception(thrown_);
 }
 
-// With more threads than cores, to check is to keep others from their work.
+// With more threads than cores, spinning would keep other threads from their work.
 void ThreadPool::resize(int threads) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -95,7 +95,7 @@ bool ThreadPool::Share::take(bool lowest, std::size_t &part) {
 }
 
 // Either a thread that goes to sleep sees the call, or the caller sees that it sleeps: both write before they
-// read, in the one order of all such accesses.
+// read, and all such accesses have one total order.
 void ThreadPool::open_call() {
   if (++calls_ == 0) ++calls_;
   open_call_.store(calls_);
@@ -104,9 +104,9 @@ void ThreadPool::open_call() {
   called_.notify_all();
 }
 
-// A thread counts itself in before it checks whether the call is still open, so that none is at work, or will
-// be, once it is closed and all have counted themselves out. A core that the caller checked on for longer, or
-// gave away by turns, would be missing to the thread that it waits for on a machine that others use too.
+// A thread increments joined_ before it checks whether the call is still open. So no thread works, or will
+// work, when the call is closed and joined_ is 0. If the caller spun for longer, or yielded repeatedly, the
+// thread that it waits for would lack a core on a machine with other users.
 void ThreadPool::close_call() {
   open_call_.store(0);
   const auto done = [&] { return joined_.load() == 0; };
@@ -119,8 +119,8 @@ void ThreadPool::close_call() {
   caller_sleeps_.store(false);
 }
 
-// Either the caller that goes to sleep sees that this thread was the last, or this thread that it sleeps, as
-// in open_call().
+// Either the caller that goes to sleep sees that this thread was the last, or this thread sees that the
+// caller sleeps, as in open_call().
 void ThreadPool::count_out() {
   if (joined_.fetch_sub(1) != 1 || !caller_sleeps_.load()) return;
   { const std::lock_guard<std::mutex> lock(mutex_); }
@@ -140,7 +140,7 @@ void ThreadPool::serve(std::size_t thread) {
   }
 }
 
-// Until a call is open that was not served yet; false: no more will come.
+// Waits until a call is open that this thread has not served; false: the pool stops.
 bool ThreadPool::wait_for_call(unsigned done) {
   const auto called = [&] {
     const unsigned call = open_call_.load();
@@ -165,7 +165,7 @@ void ThreadPool::do_parts(std::size_t thread) {
       do_share((thread + k) % shares_.size(), loop, false);
 }
 
-// The share of a thread, by itself or by another one.
+// Runs the parts of a thread, called by this thread or another one.
 void ThreadPool::do_share(std::size_t thread, int loop, bool own) {
   const bool begins_low = thread % 2 == 0;
   for (std::size_t part = 0; shares_[thread][loop].take(begins_low == own, part);)

@@ -1,5 +1,5 @@
-// Persistent threads that share out the parts of a loop: a step is some loops of some hundred microseconds
-// one after the other, so that a thread that waits for the next loop checks for it rather than sleep.
+// Persistent threads that share the parts of a loop. A step has several loops of some hundred microseconds
+// each, so a thread that waits for the next loop spins at first and does not sleep.
 #pragma once
 
 #include <array>
@@ -24,21 +24,21 @@ public:
   ThreadPool(const ThreadPool &) = delete;
   ThreadPool &operator=(const ThreadPool &) = delete;
 
-  // Every part of both loops once, on up to `threads` threads, the caller's among them; returns when all are
-  // done. Each thread starts with runs of neighbouring parts, first of one loop and then of the other, the
-  // same whenever the loops have as many parts, so that what a core has in its caches stays there. When it
-  // has none left it takes from others, the second loop's first: of two loops, the one of smaller parts is
-  // worth to be the second. Every other thread begins with its last part, and parts are taken from others at
-  // the end that these have not come to: two threads meet in the middle, and what changes hands from call to
-  // call is the parts there. No thread is waited for that has not begun. A call inside a part, or beside one
-  // that another thread has made, runs on its caller alone. What a part throws reaches the caller once no
-  // thread is at work; of several, what the lowest part of the first loop threw, or else of the second.
-  // Throws std::length_error for 2^32 parts or more.
+  // Runs every part of both loops once, on up to `threads` threads including the caller's; returns when all
+  // are done. Each thread starts with runs of neighbouring parts, first of one loop and then of the other,
+  // always the same for equal numbers of parts, so that data stays in the caches of a core. A thread without
+  // parts takes parts from others, of the second loop first: the loop with smaller parts should be the
+  // second. Every other thread begins with its last part, and others take parts from the opposite end: two
+  // threads meet in the middle, and only the parts there change threads from call to call. The call does not
+  // wait for a thread that has not begun. A call inside a part, or during a call by another thread, runs on
+  // its caller alone. An exception of a part reaches the caller when no thread is at work; of several, that
+  // of the lowest part of the first loop, or else of the second. Throws std::length_error for 2^32 parts or
+  // more.
   void run(const Loop &first, const Loop &second, int threads);
 
 private:
-  // Parts of a loop that a thread starts with, [first, last) of them left: both in one number, so that none
-  // is taken at both ends at once.
+  // Initial parts of a thread in a loop, [first, last) of them left: both in one number, so that no part is
+  // taken from both ends at once.
   class alignas(64) Share {
   public:
     void set(std::size_t first, std::size_t last);
@@ -62,13 +62,13 @@ private:
   void do_part(int loop, std::size_t part);
 
   std::vector<std::thread> threads_; // all but the caller's
-  std::vector<Shares> shares_;       // one for each thread, the caller's first
-  int checks_ = 0;                   // for the next call, before a thread sleeps
+  std::vector<Shares> shares_;       // one per thread, the caller's first
+  int checks_ = 0;                   // number of checks for the next call before a thread sleeps
   std::array<Loop, 2> loops_;        // of the open call
   unsigned calls_ = 0;
 
-  std::mutex in_use_; // by a caller
-  std::mutex mutex_;  // of what follows
+  std::mutex in_use_; // locked by a caller
+  std::mutex mutex_;  // protects the next members
   std::condition_variable called_, done_;
   std::exception_ptr thrown_;
   std::pair<int, std::size_t> thrown_by_; // loop and part

@@ -1,5 +1,5 @@
-// Vectors in space and rotations, of particles and of bodies alike: plain values, no library behind them,
-// because the force kernels are compiled for several instruction sets (bench/results/vectors.md).
+// Vectors in space and rotations, for particles and bodies: plain values without a library, because the force
+// kernels are compiled for several instruction sets (bench/results/vectors.md).
 #pragma once
 
 #include <array>

@@ -76,7 +76,7 @@ void Contacts::compute(Particles &particles, double dt, const BlockList *listed,
 kernels::ContactLoop Contacts::loop_for(bool rotation, bool ledger, InstructionSet set) const {
   const kernels::ContactKernels &kernels = for_set(
       set, kernels::contact_kernels_baseline, kernels::contact_kernels_avx2, kernels::contact_kernels_avx512);
-  return kernels.loop({settings_.normal, settings_.tangential, dashpot_ > 0, rotation, ledger});
+  return kernels.loop({settings_.normal, settings_.tangential, rotation, ledger});
 }
 
 } // namespace platen::dem

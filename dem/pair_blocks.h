@@ -58,7 +58,7 @@ struct PairBlocks {
   int block_of_ghost(int ghost) const;
   // Index of the ghost of a particle in a block; -1 if there is none.
   int ghost_of(int block, int particle) const;
-  unsigned cut_number() const { return cut_number_; } // changes with each rebuild(), never 0
+  unsigned cut_number() const { return cut_number_; } // changes with each rebuild(); 0 before the first
   std::size_t bytes() const;
 
 private:

@@ -30,15 +30,17 @@ struct StableStep {
   std::string reason;   // one sentence
 };
 
-// Lanczos on M^-1/2 K M^-1/2; the residual of the largest Ritz value is added, so that the estimate is from
-// above. `dashpots`: fractions of critical damping, which reduce the limit, by the factor sqrt(1 + xi^2) - xi
-// for a single mode of damping ratio xi. `bonds`, `contacts` may be null. Local damping alpha divides the
-// limit by sqrt(1 + alpha): if each step reverses the velocity, it acts as a stiffness.
+// Fractions of critical damping of what acts in parallel to the springs, and of the scheme.
 struct DashpotFractions {
   double bonds = 0, contacts = 0, surfaces = 0;
   double local = 0;  // alpha, 0 ... 1
   double scheme = 1; // phi of Tchamwa and Wielgosz: divides the limit by sqrt(2 phi - 1)
 };
+
+// Lanczos on M^-1/2 K M^-1/2; the residual of the largest Ritz value is added, so that the estimate is from
+// above. `dashpots`: fractions of critical damping, which reduce the limit, by the factor sqrt(1 + xi^2) - xi
+// for a single mode of damping ratio xi. `bonds`, `contacts` may be null. Local damping alpha divides the
+// limit by sqrt(1 + alpha): if each step reverses the velocity, it acts as a stiffness.
 // `sought_below` (s): the particle that sets the limit is searched only below this value, which costs half as
 // much again as the limit. Above it, the returned limit may be too small, but not below this value.
 StableStep stable_step(const Particles &particles, const Bonds *bonds, const Contacts *contacts,

@@ -1,4 +1,4 @@
-// What ranks tell each other: errors, and whether they were asked the same.
+// Exchange between ranks of errors, and a check that all have the same text.
 #pragma once
 
 #include <mpi.h>
@@ -7,10 +7,10 @@
 
 namespace platen::dist {
 
-// What went wrong on the first rank that says so, on every rank; empty where none does. Collective.
+// The error of the first rank that has one, on every rank; empty where none has. Collective.
 std::string first_error(MPI_Comm ranks, const std::string &mine);
 
-// Whether all ranks have this text. Collective.
+// Whether all ranks pass the same text. Collective.
 bool same_on_all(MPI_Comm ranks, const std::string &mine);
 
 } // namespace platen::dist

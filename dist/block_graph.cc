@@ -13,7 +13,7 @@
 namespace platen::dist {
 namespace {
 
-using Edges = std::vector<std::map<int, double>>; // of each block: weight by neighbour
+using Edges = std::vector<std::map<int, double>>; // for each block: weight by neighbour
 
 Edges edges_of(const BlockGraph &graph) {
   Edges edges(graph.blocks());

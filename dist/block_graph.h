@@ -1,4 +1,4 @@
-// Blocks of particles and what joins them: what a cut of a specimen over ranks is found from.
+// Graph of blocks of particles and their bonds, from which the cut of a specimen over ranks is computed.
 #pragma once
 
 #include <cstddef>
@@ -13,28 +13,28 @@ struct Particles;
 
 namespace platen::dist {
 
-// The same on every rank. Block b is the rows of block b of base/parallel.h; edges of a block ascend.
+// The same on every rank. Block b contains the rows of block b of base/parallel.h; edges of a block ascend.
 struct BlockGraph {
   std::vector<double> weight;          // of each block: work of a step, in bonds
   std::vector<Vector3> centre;         // of each block: mean of its reference positions, m
   std::vector<std::size_t> first_edge; // of each block, and the end
-  std::vector<int> neighbour;          // of each edge: a block; each edge stands in both blocks
+  std::vector<int> neighbour;          // of each edge: a block; each edge is listed in both blocks
   std::vector<double> edge_weight;     // ghosts between the two blocks, the same in both
 
   std::size_t blocks() const { return weight.size(); }
 };
 
-// What kicks and drift of a particle cost, in bonds: 15 ns of 21 (bench/results/step.md).
+// Cost of kicks and drift of a particle, in bonds: 15 ns of 21 (bench/results/step.md).
 constexpr double work_of_a_particle = .7;
 
-// Particles of these blocks and bonds of theirs.
+// Graph from the particles and their bonds.
 BlockGraph graph_of(const dem::PairBlocks &bonds, const dem::Particles &particles);
 
-// Adds further pairs (contacts) of the same particles: one of weight each, and their ghosts.
+// Adds further pairs (contacts) of the same particles: weight 1 for each, and their ghosts.
 void add_pairs(BlockGraph &graph, const dem::PairBlocks &pairs);
 
-// Throws std::invalid_argument where lengths do not fit, weights are negative or not finite, or an edge leads
-// to no other block or stands in one of its two blocks alone, or with another weight.
+// Throws std::invalid_argument where lengths do not match, weights are negative or not finite, or an edge
+// does not join two blocks, or is in one of its two blocks alone, or with another weight.
 void require_whole(const BlockGraph &graph);
 
 } // namespace platen::dist

@@ -10,7 +10,7 @@
 
 namespace platen::dist {
 
-// A datatype of so many bytes, freed at the end.
+// A datatype of `width` bytes, freed at the end.
 class Bytes {
 public:
   explicit Bytes(std::size_t width) {
@@ -26,14 +26,14 @@ private:
   MPI_Datatype type_ = MPI_DATATYPE_NULL;
 };
 
-// Where each part begins.
+// Start index of each part.
 inline std::vector<int> starts(const std::vector<int> &counts) {
   std::vector<int> at(counts.size(), 0);
   std::partial_sum(counts.begin(), counts.end() - 1, at.begin() + 1);
   return at;
 }
 
-// to[r] goes to rank r; what came from each.
+// Sends to[r] to rank r; returns the list from each rank.
 template <class T>
 std::vector<std::vector<T>> exchange_lists(MPI_Comm ranks, const std::vector<std::vector<T>> &to) {
   static_assert(std::is_trivially_copyable_v<T>, "sent as bytes");
@@ -56,7 +56,7 @@ std::vector<std::vector<T>> exchange_lists(MPI_Comm ranks, const std::vector<std
   return from;
 }
 
-// What all ranks have, in the order of ranks.
+// The lists of all ranks, in the order of ranks.
 template <class T>
 std::vector<T> gather_list_of_all(MPI_Comm ranks, const std::vector<T> &own) {
   static_assert(std::is_trivially_copyable_v<T>, "sent as bytes");

@@ -11,9 +11,9 @@
 namespace platen::dist {
 namespace {
 
-constexpr int halvings = 60; // of an interval of weights: down to the last bit of what is left
+constexpr int halvings = 60; // of an interval of weights: down to its last bit
 
-// Fills ranks one after the other up to `bound`, the last ones with a block each at least. Largest weight.
+// Fills ranks in order up to `bound`, the last ones with at least a block each; returns the largest weight.
 double fill_in_order(const std::vector<double> &weight, int parts, double bound, std::vector<int> &part) {
   double sum = 0, largest = 0;
   int now = 0;
@@ -27,7 +27,7 @@ double fill_in_order(const std::vector<double> &weight, int parts, double bound,
   return largest;
 }
 
-// Numbers ranks by their first block. False where one has no block.
+// Numbers ranks by their first block. Returns false where a rank has no block.
 bool number_by_first_block(std::vector<int> &rank, int parts) {
   std::vector<int> number(static_cast<std::size_t>(parts), -1);
   int next = 0;
@@ -39,13 +39,13 @@ bool number_by_first_block(std::vector<int> &rank, int parts) {
   return next == parts;
 }
 
-// Where no block has work, each counts the same.
+// Equal weights where no block has work.
 std::vector<double> usable_weights(const std::vector<double> &weight) {
   const bool none = std::all_of(weight.begin(), weight.end(), [](double w) { return w == 0; });
   return none ? std::vector<double>(weight.size(), 1) : weight;
 }
 
-// What a cut costs.
+// Computes the cost of a cut.
 void measure(Partition &cut, const BlockGraph &graph) {
   const std::vector<double> weight = usable_weights(graph.weight);
   std::vector<double> sums(static_cast<std::size_t>(cut.useful_ranks));
@@ -81,7 +81,7 @@ std::optional<Partition> try_method(const BlockGraph &graph, int parts, Partitio
   return cut;
 }
 
-// Balance comes first as far as the limit asks for it, then few ghosts.
+// Balance above the limit comes first, then few ghosts.
 bool is_better(const Partition &a, const Partition &b, const PartitionLimits &limits) {
   const double unlike_a = std::max(a.imbalance, limits.imbalance),
                unlike_b = std::max(b.imbalance, limits.imbalance);

@@ -33,7 +33,7 @@ std::vector<FileRun> own_runs(const std::vector<FilePiece> &pieces, int rank) {
   return runs;
 }
 
-// The system's word, where it got through MPI.
+// The system's error message, where MPI passes it on.
 std::string reason(int status, int system) {
   int kind = MPI_SUCCESS;
   MPI_Error_class(status, &kind);
@@ -41,7 +41,7 @@ std::string reason(int status, int system) {
   if (kind == MPI_ERR_ACCESS) return std::strerror(EACCES);
   if (kind == MPI_ERR_NO_SPACE) return std::strerror(ENOSPC);
   if (kind == MPI_ERR_READ_ONLY) return std::strerror(EROFS);
-  // EBADF: OpenMPI 4.1 has closed by then what it could not open.
+  // EBADF: OpenMPI 4.1 has already closed a file that it could not open.
   if (system != 0 && system != EBADF) return std::strerror(system);
   char text[MPI_MAX_ERROR_STRING] = "";
   int length = 0;
@@ -57,7 +57,7 @@ void require_none(MPI_Comm ranks, const std::string &path, const std::string &mi
 
 } // namespace
 
-// A file that one rank has open. Each opens it for itself: where one fails the others need not wait for it.
+// A file that one rank has open. Each opens it separately: where one fails, the others do not wait.
 class FileOfRanks::Open {
 public:
   Open(const std::string &path, int mode) {
@@ -74,7 +74,7 @@ public:
     errno = 0;
     if (good()) note(MPI_File_set_size(file_, 0), "cannot be written");
   }
-  // A disk that fills up takes a part first; OpenMPI 4.1 then reports success, and no bytes.
+  // A disk that becomes full accepts a part first; OpenMPI 4.1 then reports success with zero bytes.
   void write(const FilePiece &piece, std::uint64_t at_once) {
     const char *bytes = static_cast<const char *>(piece.bytes);
     for (std::uint64_t done = 0; good() && done < piece.length;) {

@@ -1,4 +1,4 @@
-// One file that several ranks write, each its own pieces of it.
+// One file that several ranks write, each its own pieces.
 #pragma once
 
 #include <mpi.h>
@@ -16,31 +16,31 @@ struct FilePiece {
   std::uint64_t length = 0; // bytes
 };
 
-// A stretch of a file that one rank holds.
+// A contiguous part of a file, on one rank.
 struct FileRun {
   std::uint64_t offset, length; // bytes
   int rank;
 };
 
-// Who holds what of a file, from its beginning; the same on every rank. Pieces of a rank in any order.
+// The rank of each part of a file, from its beginning; the same on every rank. Pieces of a rank in any order.
 // Collective. Throws std::invalid_argument on all ranks where pieces overlap or leave a gap.
 std::vector<FileRun> runs_of_file(MPI_Comm ranks, const std::vector<FilePiece> &pieces);
 
-constexpr std::uint64_t bytes_at_once = std::uint64_t{1} << 30; // of one call: MPI counts by int
+constexpr std::uint64_t bytes_at_once = std::uint64_t{1} << 30; // per call: MPI counts by int
 
-// A file that is written piece by piece. Where a rank fails it goes on without writing, so that it stays with
-// the others, and finish() tells all.
+// A file that is written piece by piece. A rank that fails continues without writing, so that collective
+// calls match, and finish() reports the error on all ranks.
 class FileOfRanks {
 public:
-  // Empties what stands at `path`. Collective. Where that fails all throw the same std::runtime_error with
-  // path, reason and rank.
+  // Empties the file at `path`. Collective. Where that fails, all ranks throw the same std::runtime_error
+  // with path, reason and rank.
   FileOfRanks(MPI_Comm ranks, std::string path, std::uint64_t at_once = bytes_at_once);
   ~FileOfRanks();
   FileOfRanks(const FileOfRanks &) = delete;
   FileOfRanks &operator=(const FileOfRanks &) = delete;
 
   void write(const FilePiece &piece); // of this rank
-  // Returns when the disk has what all have written. Collective, throws as the constructor does.
+  // Returns when all data is on the disk. Collective, throws as the constructor does.
   void finish();
 
 private:
@@ -51,10 +51,10 @@ private:
   std::unique_ptr<Open> open_;
 };
 
-// Writes `path` from the pieces of all ranks, which cover it, and returns when the disk has it. What stood
-// there is replaced. Collective. Where anything fails on any rank, all throw the same std::runtime_error with
-// path, reason and rank; the file is then to be removed: write it aside, and give it its name when it is
-// whole. `at_once` is for tests.
+// Writes `path` from the pieces of all ranks, which must cover it, and returns when the data is on the disk.
+// An existing file is replaced. Collective. Where any rank fails, all throw the same std::runtime_error with
+// path, reason and rank; the caller must then remove the file: write to a temporary name, and rename the
+// complete file. `at_once` is for tests.
 void write_rank_file(MPI_Comm ranks, const std::string &path, const std::vector<FilePiece> &pieces,
                      std::uint64_t at_once = bytes_at_once);
 

@@ -1,4 +1,4 @@
-// The ranks themselves: who has which block, sums over all, cracks of all.
+// The ranks: owners of blocks, sums and cracks of all ranks.
 #include "dist/ranks.h"
 
 #include <algorithm>
@@ -49,7 +49,7 @@ Ranks::Ranks(MPI_Comm ranks) {
       1, &add_sums_);
 }
 
-// After a failure other ranks may be elsewhere: nothing is waited for.
+// After a failure other ranks may be at another call: do not wait for them.
 Ranks::~Ranks() {
   if (std::uncaught_exceptions() > 0) return;
   for (Messages *messages : {&motion_, &bonds_, &contacts_})
@@ -85,7 +85,7 @@ long Ranks::expected_messages() const {
   return messages;
 }
 
-// Once: no rank gives blocks away during a run.
+// Called once: blocks do not change ranks during a run.
 void Ranks::cut(const dem::Model &model) {
   const dem::Particles &p = model.particles;
   rows_ = p.size();

@@ -1,10 +1,10 @@
 // One specimen cut over the ranks of an MPI communicator (docs/clusters.md). Every rank keeps the row numbers
-// of the whole specimen and computes its own blocks of 512 rows; what a pair of its blocks exerts on a
-// particle of another rank is sent there and added in the order of blocks, as on one rank. So results are the
-// same bytes.
+// of the whole specimen and computes its own blocks of 512 rows. Forces of a pair of its blocks on a particle
+// of another rank are sent there and added in the order of blocks, as on one rank. So results are the same
+// bytes.
 //
 // A step has three messages to each neighbour: position and motion of the particles that it needs (104 bytes
-// a particle with rotation, 48 without), what bonds exert (48, 24), what contacts that touch exert (56, 32);
+// per particle with rotation, 48 without), forces of bonds (48, 24), forces of touching contacts (56, 32);
 // and one reduction over all ranks, of some 600 bytes.
 #pragma once
 
@@ -25,7 +25,7 @@ class Table;
 
 namespace platen::dist {
 
-// What was sent in steps, by this rank.
+// Data sent in steps by this rank.
 struct Traffic {
   long steps = 0, messages = 0;
   double bytes = 0;
@@ -42,12 +42,12 @@ public:
 
   int rank() const { return rank_; }
   int size() const { return size_; }
-  MPI_Comm communicator() const { return ranks_; }          // of its own
-  const Partition &partition() const { return partition_; } // from the first scatter() on
+  MPI_Comm communicator() const { return ranks_; }          // a copy, of its own
+  const Partition &partition() const { return partition_; } // set by the first scatter()
   const Traffic &traffic() const { return traffic_; }
   std::size_t halo_rows() const; // of other ranks, sent here in every step
-  // Of this rank in a step, by what is planned: rows that go elsewhere, times 104 (48 without rotation),
-  // ghosts of bonds times 48 (24); up to three messages to each neighbour. Contacts that touch come on top.
+  // Planned traffic of this rank in a step: rows sent to other ranks, times 104 (48 without rotation), ghosts
+  // of bonds times 48 (24); up to three messages to each neighbour. Contacts that touch are not included.
   double expected_bytes() const;
   long expected_messages() const;
 
@@ -77,11 +77,11 @@ public:
   void scatter(dem::Model &model) override;
 
 private:
-  // A ghost of an own block whose particle is another rank's.
+  // A ghost of an own block whose particle belongs to another rank.
   struct Ghost {
     int block = 0, particle = 0;
   };
-  // Messages of one kind: what goes to each rank and comes from each.
+  // Messages of one kind, to and from each rank.
   struct Messages {
     int tag = 0;
     std::vector<std::vector<double>> out, in; // of each rank
@@ -111,7 +111,7 @@ private:
   std::size_t doubles_of_motion() const { return rotation_ ? 13 : 6; }
   std::size_t doubles_of_ghost() const { return rotation_ ? 6 : 3; }
 
-  // Rows of all ranks, block by block in their order.
+  // Gather rows of all ranks in the order of blocks.
   void gather_columns(Table &table, const std::vector<std::int64_t> &rows_of_block);
   void gather_table(Table &table, const int *first, std::size_t rows);
   void gather_particles(dem::Particles &particles);
@@ -128,13 +128,13 @@ private:
   std::size_t rows_ = 0; // of the specimen
 
   std::vector<std::vector<Ghost>> bond_ghosts_, contact_ghosts_; // to each rank, by block and particle
-  std::vector<std::vector<Ghost>> bonds_from_, contacts_from_;   // and from each
-  std::vector<std::vector<int>> index_of_ghost_;                 // of bonds, in the blocks as they were cut
-  unsigned cut_number_ = 0;                                      // of the blocks when that was found
+  std::vector<std::vector<Ghost>> bonds_from_, contacts_from_;   // from each rank
+  std::vector<std::vector<int>> index_of_ghost_;                 // of bonds, in the current blocks
+  unsigned cut_number_ = 0;                                      // cut number of the blocks for these indices
   std::vector<std::vector<int>> halo_to_, halo_from_;            // rows, ascending
   std::vector<int> shared_;
   bool share_all_ = false;
-  std::vector<std::vector<int>> motion_to_, motion_from_; // both of these
+  std::vector<std::vector<int>> motion_to_, motion_from_; // halo and shared rows
   Messages motion_, bonds_, contacts_;
   std::vector<std::vector<char>> loads_; // of each rank
   std::vector<char> own_loads_;

@@ -1,4 +1,4 @@
-// Tables and motion of all ranks together, in the order that they have on one.
+// Tables and motion of all ranks, in the same order as on one rank.
 #include <algorithm>
 #include <cstring>
 
@@ -16,7 +16,7 @@ std::size_t block_of(int row) {
 
 } // namespace
 
-// Ranks send their blocks in order; these are then put where they belong.
+// Ranks send their blocks in order; the copy then restores the order of all blocks.
 std::vector<char> Ranks::gather_bytes(const void *own, std::size_t width,
                                       const std::vector<std::int64_t> &rows_of_block) const {
   std::vector<int> counts(static_cast<std::size_t>(size_), 0);

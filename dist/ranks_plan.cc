@@ -1,4 +1,4 @@
-// Who sends what to whom: found when the specimen is cut, and when contacts are searched anew.
+// Plan of the messages: made when the specimen is cut, and when contacts are searched again.
 #include <algorithm>
 #include <iterator>
 
@@ -14,7 +14,7 @@ void sort_once(std::vector<int> &rows) {
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
 }
 
-// Behind the own ghosts, from rank to rank.
+// Ghosts from other ranks, stored after the own ghosts, rank by rank.
 template <class Ghosts>
 std::vector<dem::PairBlocks::Remote> remote_ghosts(const Ghosts &from) {
   std::vector<dem::PairBlocks::Remote> remote;
@@ -45,7 +45,7 @@ void Ranks::scatter(dem::Model &model) {
   }
   plan_halo(model);
   plan_motion();
-  if (rank_ != 0) // the first one keeps what there was
+  if (rank_ != 0) // rank 0 keeps the previous sums
     model.visit_sums([](ExactSum &sum) { sum = {}; });
 }
 
@@ -55,7 +55,7 @@ void Ranks::renew_contacts(dem::Model &model) {
   plan_motion();
 }
 
-// Inner blocks are halved by what they cost, so that both messages have about as long.
+// Inner blocks are split into halves of equal cost, so that both messages have about the same time.
 void Ranks::list_blocks(const dem::PairBlocks &bonds) {
   blocks_ = {};
   std::vector<char> outer(partition_.rank.size(), 0);
@@ -92,7 +92,7 @@ void Ranks::plan_bonds(dem::PairBlocks &blocks) {
   cut_number_ = 0;
 }
 
-// Any near pair may come to touch, and any bond may leave a contact.
+// Any near pair may come into contact, and any broken bond may become a contact.
 void Ranks::plan_contacts(dem::Model &model) {
   contact_ghosts_ = bond_ghosts_;
   for (const dem::IndexPair &pair : model.contacts->search_state().wide_pairs())
@@ -114,7 +114,7 @@ void Ranks::plan_contacts(dem::Model &model) {
   model.contacts->rows_changed();
 }
 
-// Particles that pairs of own blocks reach.
+// Particles of other ranks in pairs of own blocks.
 void Ranks::plan_halo(const dem::Model &model) {
   const auto &reached = model.contacts ? contact_ghosts_ : bond_ghosts_;
   for (std::size_t r = 0; r < reached.size(); ++r) {
@@ -133,7 +133,7 @@ void Ranks::share_rows(const std::vector<int> *rows) {
   plan_motion();
 }
 
-// All ranks know the shared rows, so that nothing has to be told.
+// All ranks know the shared rows, so no message is needed for the plan.
 void Ranks::plan_motion() {
   motion_to_ = halo_to_;
   motion_from_ = halo_from_;

@@ -22,7 +22,7 @@ Vector3 vector_at(const double *from) {
 
 } // namespace
 
-// Receives of at most so many doubles from each rank; none where that is none.
+// Posts a receive of at most `most` doubles from each rank; none where that is 0.
 void Ranks::post(Messages &messages, const std::vector<std::size_t> &most) {
   messages.receiving.clear();
   messages.from.clear();
@@ -101,7 +101,7 @@ void Ranks::receive_motion(dem::Particles &p) {
   }
 }
 
-// Where the ghosts that go to others stand in the blocks as they are cut now; -1: its bonds have broken.
+// Indices of the ghosts sent to other ranks in the current blocks; -1: the ghost's bonds have broken.
 void Ranks::find_ghosts(const dem::PairBlocks &blocks) {
   if (blocks.cut_number() == cut_number_) return;
   cut_number_ = blocks.cut_number();
@@ -127,7 +127,7 @@ void Ranks::send_bond_ghosts(const dem::PairBlocks &blocks) {
   }
 }
 
-// Few near pairs touch: those that do, each with its number in the list that both sides have.
+// Few near pairs touch: sends only those, each with its index in the list that both ranks have.
 void Ranks::send_contact_ghosts(const dem::PairBlocks &blocks) {
   std::vector<std::size_t> most(contacts_from_.size());
   for (std::size_t r = 0; r < most.size(); ++r)

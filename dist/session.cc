@@ -7,7 +7,7 @@
 
 namespace platen::dist {
 
-// OpenMPI's mpirun; launchers of MPICH; srun with PMIx tells its tasks in the step.
+// OpenMPI's mpirun; launchers of MPICH; srun with PMIx gives the number of tasks in the step.
 int launched_processes() {
   const auto number = [](const char *name) {
     const char *text = std::getenv(name);

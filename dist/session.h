@@ -3,8 +3,8 @@
 
 namespace platen::dist {
 
-// Begins with MPI_Init where mpirun (or srun with PMIx) says that there are more processes than this one, and
-// ends with MPI_Finalize. A program without a launcher does nothing of MPI here.
+// Calls MPI_Init where mpirun (or srun with PMIx) reports more than one process, and MPI_Finalize at the end.
+// Without a launcher it does not use MPI.
 class Session {
 public:
   Session();
@@ -22,7 +22,7 @@ private:
   int rank_ = 0, ranks_ = 1, ranks_here_ = 1;
 };
 
-// Processes that a launcher says to have started, by its environment; 1 without one. Starts nothing.
+// Number of processes by the launcher's environment variables; 1 without a launcher. Does not start MPI.
 int launched_processes();
 
 } // namespace platen::dist

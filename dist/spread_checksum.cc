@@ -24,7 +24,7 @@ Range common(const Range &a, std::uint64_t offset, std::uint64_t length) {
   return {first, std::max(first, std::min(a.last, offset + length))};
 }
 
-// A stretch of a text that is dealt with in one go: a share to each rank.
+// A contiguous part of a text that is hashed at once: a share for each rank.
 struct Window {
   std::uint64_t first, share, end; // of the text
   int ranks;
@@ -33,14 +33,14 @@ struct Window {
     const std::uint64_t from = std::min(end, first + share * static_cast<std::uint64_t>(rank));
     return {from, std::min(end, from + share)};
   }
-  // Ranks with a share, the first so many.
+  // Number of ranks with a share: the first ones.
   int in_use() const {
     return static_cast<int>(std::min<std::uint64_t>(ranks, (end - first + share - 1) / share));
   }
   bool is_last() const { return end - first <= share * static_cast<std::uint64_t>(ranks); }
 };
 
-// Counts by rank, and where each begins.
+// Counts by rank, and the start index of each.
 struct Counts {
   std::vector<int> count, first;
   explicit Counts(int ranks) : count(static_cast<std::size_t>(ranks)), first(count.size()) {}
@@ -50,16 +50,16 @@ struct Counts {
   }
 };
 
-// Who hashes a text: a rank and what it knows.
+// Data of a rank for hashing a text.
 struct Hasher {
   MPI_Comm comm;
   int rank = 0, ranks = 1;
   const std::vector<FileRun> &runs;  // of all ranks
   const std::vector<FilePiece> &own; // of this one, ascending
-  XXH64_state_t state;               // where this rank has it: rank 0 at first
+  XXH64_state_t state;               // valid on one rank at a time: rank 0 at first
 };
 
-// What this rank holds of the shares of all, by rank, and what it gets for its own, by rank.
+// Sends this rank's bytes to the ranks whose shares they are in; returns those of its own share, by rank.
 std::vector<char> exchange(const Hasher &h, const Window &window, Counts &in) {
   Counts out(h.ranks);
   std::vector<char> give;
@@ -81,7 +81,7 @@ std::vector<char> exchange(const Hasher &h, const Window &window, Counts &in) {
   return got;
 }
 
-// Goes on with the hash over this rank's share: bytes of each rank stand one after the other in `got`.
+// Continues the hash over this rank's share: `got` contains the bytes of each rank one after the other.
 void add_share(Hasher &h, const Window &window, const std::vector<char> &got, Counts &in) {
   for (const FileRun &run : h.runs) {
     const Range part = common(window.share_of(h.rank), run.offset, run.length);
@@ -105,7 +105,7 @@ void hash_window(Hasher &h, const Window &window) {
     MPI_Send(&h.state, sizeof h.state, MPI_BYTE, (h.rank + 1) % h.ranks, tag, h.comm);
 }
 
-// Back to the first rank, who goes on with it.
+// Sends the state back to the first rank, which continues.
 void hand_back(Hasher &h, int holder) {
   if (holder == 0) return;
   if (h.rank == holder) MPI_Send(&h.state, sizeof h.state, MPI_BYTE, 0, tag, h.comm);

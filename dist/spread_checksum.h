@@ -1,4 +1,4 @@
-// The checksum of bytes that lie on several ranks.
+// The checksum of bytes that are distributed over several ranks.
 #pragma once
 
 #include <mpi.h>
@@ -12,10 +12,10 @@
 
 namespace platen::dist {
 
-constexpr std::uint64_t largest_share = std::uint64_t{1} << 24; // bytes that a rank hashes in one go
+constexpr std::uint64_t largest_share = std::uint64_t{1} << 24; // bytes that a rank hashes at once
 
-// XXH64 (seed 0) of a text that grows. It cannot be made from those of two parts: ranks exchange bytes so
-// that each has a share of what is added in one piece, and hand the hash on from share to share (88 bytes).
+// XXH64 (seed 0) of a text that grows. It cannot be combined from hashes of two parts: ranks exchange bytes
+// so that each has one part of the added text, and send the hash state (88 bytes) from part to part.
 class SpreadHash {
 public:
   explicit SpreadHash(MPI_Comm ranks, std::uint64_t share = largest_share); // `share` is for tests
@@ -23,10 +23,10 @@ public:
   SpreadHash(const SpreadHash &) = delete;
   SpreadHash &operator=(const SpreadHash &) = delete;
 
-  // Bytes that the ranks hold in pieces that cover them, offsets counted from their own beginning.
+  // Adds bytes that the ranks hold in pieces that cover them, offsets counted from their own beginning.
   // Collective. Throws std::invalid_argument as runs_of_file does.
   void add(const std::vector<FilePiece> &pieces);
-  // Bytes that rank 0 has; what other ranks give is nothing.
+  // Adds bytes of rank 0; arguments of other ranks are ignored.
   void add_of_first(const void *bytes, std::size_t count);
   std::uint64_t value() const; // on every rank; collective
 
@@ -38,9 +38,9 @@ private:
 };
 
 // XXH64 (seed 0) of each text whose bytes the ranks hold in pieces that cover it, offsets counted from its
-// own beginning: what one rank that had all would compute, on every rank. Collective; each rank gives as many
-// texts, with no piece where it has none. Throws std::invalid_argument as runs_of_file does. `share` is for
-// tests.
+// own beginning: the same value as on one rank that has all bytes, on every rank. Collective; each rank
+// passes the same number of texts, with no piece where it has none. Throws std::invalid_argument as
+// runs_of_file does. `share` is for tests.
 std::vector<std::uint64_t> xxh64_of(MPI_Comm ranks, const std::vector<std::vector<FilePiece>> &texts,
                                     std::uint64_t share = largest_share);
 

@@ -14,7 +14,7 @@ constexpr std::array<const char *, 8> moving{"position",        "velocity",   "f
                                              "orientation",     "torque",     "angular_velocity",
                                              "excess_velocity", "excess_spin"};
 
-// Own blocks, one after the other in both.
+// Adds own rows; joins them with the last run where both row numbers continue it.
 void add_block(SpreadRows &rows, std::size_t own, std::size_t whole, std::size_t count) {
   if (count == 0) return;
   if (!rows.runs.empty()) {
@@ -27,7 +27,7 @@ void add_block(SpreadRows &rows, std::size_t own, std::size_t whole, std::size_t
   rows.runs.push_back({own, whole, count});
 }
 
-// Of pairs, which stand in the order of the blocks of their first particle: this rank has those of its own.
+// Rows of pairs, in the order of the blocks of their first particle: this rank has those of its own blocks.
 template <class FirstOf>
 SpreadRows spread_pairs(const Ranks &ranks, std::size_t own_rows, const FirstOf &first_of) {
   const std::vector<int> &owner = ranks.partition().rank;

@@ -1,4 +1,4 @@
-// Where the rows that ranks hold of a model stand in the state of the whole.
+// Positions of the rows of each rank in the state of the whole model.
 #pragma once
 
 #include <cstddef>
@@ -19,10 +19,10 @@ namespace platen::dist {
 
 class Ranks;
 
-// Columns of particles that a step changes: a rank has those of its own rows. The others are whole on all.
+// Columns of particles that a step changes: a rank has its own rows. Other columns are complete on all.
 bool is_moving(const std::string &column);
 
-// Rows of a block of a state, as one rank has them.
+// Rows of a block of a state on one rank.
 struct SpreadRows {
   struct Run {
     std::size_t own, whole, count; // first row here, first row in the whole, rows
@@ -30,19 +30,19 @@ struct SpreadRows {
   std::size_t whole = 0; // rows of all ranks
   std::vector<Run> runs; // of this one, ascending
 
-  // What this rank has of the bytes of the whole, whose rows begin at `data` here.
+  // This rank's pieces of the bytes of the whole block; its rows begin at `data` here.
   std::vector<FilePiece> pieces(const void *data, std::size_t bytes_per_row) const;
 };
 
-// Of a model that is cut, as it is now, after settle_state(); by the names of Model::describe.
+// Rows of a cut model in its current state, after settle_state(); by the names of Model::describe.
 class SpreadState {
 public:
   // Collective. `name` is that of the model's part in the state, with a slash: "test/specimen/".
   SpreadState(const Ranks &ranks, dem::Model &model, std::string name);
 
-  // Null: the block is whole on rank 0.
+  // Null: the block is complete on rank 0.
   const SpreadRows *rows_of(const std::string &block) const;
-  // The number of rows that a table tells in a block of its own; none where the block is another one.
+  // The number of rows of a table, which a block of its own contains; none for any other block.
   std::optional<std::uint64_t> size_told_by(const std::string &block) const;
 
 private:

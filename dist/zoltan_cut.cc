@@ -65,9 +65,9 @@ struct Destroy {
 };
 using Zoltan = std::unique_ptr<Zoltan_Struct, Destroy>;
 
-// The same cut in every call: nothing is drawn from a clock.
+// The same cut in every call: no random seed from a clock.
 void set_up(Zoltan_Struct *zoltan, int parts, PartitionMethod method, const BlockGraph &graph) {
-  void *data = const_cast<BlockGraph *>(&graph); // which no function below changes
+  void *data = const_cast<BlockGraph *>(&graph); // no function below changes it
   const auto set = [zoltan](const char *name, const char *value) { Zoltan_Set_Param(zoltan, name, value); };
   set("DEBUG_LEVEL", "0");
   set("DETERMINISTIC", "TRUE");
@@ -89,7 +89,7 @@ void set_up(Zoltan_Struct *zoltan, int parts, PartitionMethod method, const Bloc
   set("LB_APPROACH", "PARTITION");
   set("EDGE_WEIGHT_DIM", "1");
   set("PHG_EDGE_SIZE_THRESHOLD", "1.0"); // small graphs have blocks with many neighbours
-  set("CHECK_GRAPH", "0");               // require_whole did
+  set("CHECK_GRAPH", "0");               // require_whole has checked it
   Zoltan_Set_Num_Edges_Multi_Fn(zoltan, list_edge_numbers, data);
   Zoltan_Set_Edge_List_Multi_Fn(zoltan, list_edges, data);
 }

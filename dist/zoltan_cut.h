@@ -1,4 +1,4 @@
-// A graph of blocks cut by Zoltan.
+// Cut of a graph of blocks by Zoltan.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,9 @@
 
 namespace platen::dist {
 
-// Part of each block; parts may be empty. Nothing where Zoltan fails. Works on this rank alone: what Zoltan
-// sends to find a cut together costs more than the search, up to some 1e5 blocks (1e8 spheres), and so the
-// cut does not depend on who looks for it. `method` is graph or bisection; 2 <= parts. MPI must run.
+// Part of each block; parts may be empty. No value where Zoltan fails. Works on this rank alone: in a
+// parallel search Zoltan's communication costs more than the search, up to some 1e5 blocks (1e8 spheres). So
+// the cut does not depend on the running ranks. `method` is graph or bisection; 2 <= parts. MPI must run.
 std::optional<std::vector<int>> cut_by_zoltan(const BlockGraph &graph, int parts, PartitionMethod method);
 
 } // namespace platen::dist

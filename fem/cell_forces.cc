@@ -1,6 +1,6 @@
-// What every step asks of a cell of rubber: its forces, and whether it may go where it is about to. All eight
-// Gauss points go through at once, as one vector, compiled for each width of vectors that processors have and
-// chosen when the program starts: the same bits from each (no contraction).
+// Computations of every step for a cell of rubber: its forces, and a check of its next position. All eight
+// Gauss points are processed as one vector, compiled for each vector width of processors; the program chooses
+// one when it starts, with the same bits from each (no contraction).
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -58,7 +58,7 @@ PLATEN_WIDTHS double smallest_volume_ratio(const ReferenceCell &cell, const Corn
   const std::array<double, 8> corners = corner_volumes(place);
   double smallest = corners[0] / cell.corner_volume[0];
   const auto take = [&](double ratio) {
-    if (!(ratio >= smallest)) smallest = ratio; // passes on what is not a number
+    if (!(ratio >= smallest)) smallest = ratio; // passes on NaN
   };
   for (std::size_t c = 1; c < 8; ++c)
     take(corners[c] / cell.corner_volume[c]);

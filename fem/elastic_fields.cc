@@ -1,4 +1,4 @@
-// What a field on the nodes of an elastic solid says: surface, loads, integrals, stress.
+// Quantities from a field on the nodes of an elastic solid: surface, loads, integrals, stress.
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_q.h>
@@ -31,7 +31,7 @@ std::vector<int> face_lattice(int degree, const std::vector<dealii::types::globa
   return lattice;
 }
 
-// visit(face, nodes in rows, whether the face's own axes turn out of the solid), for every boundary face.
+// visit(face, nodes in rows, true if the face's own axes give the outward normal), for every boundary face.
 template <class Visit>
 void for_boundary_faces(const ElasticModel &model, const Visit &visit) {
   std::vector<dealii::types::global_dof_index> ids(model.degree == 1 ? 4 : 9);
@@ -46,7 +46,7 @@ void for_boundary_faces(const ElasticModel &model, const Visit &visit) {
     }
 }
 
-// Displacement gradients of a cell at quadrature points, as stress.
+// Stresses at the quadrature points of a cell, from displacement gradients.
 void stresses(const ElasticModel &model, const dealii::FEValues<3> &values, std::size_t cell,
               const std::vector<Vector3> &displacement, std::vector<Stress> &result) {
   const std::size_t n = nodes_per_cell(model);
@@ -105,7 +105,7 @@ std::vector<int> nodes_on(const ElasticModel &model, int tag) {
 std::vector<Vector3> body_load(const ElasticModel &model,
                                const std::function<Vector3(const Vector3 &)> &density) {
   std::vector<Vector3> load(model.nodes.size(), Vector3{});
-  const dealii::QGauss<3> gauss(static_cast<unsigned int>(model.degree) + 2); // of forces that vary in cells
+  const dealii::QGauss<3> gauss(static_cast<unsigned int>(model.degree) + 2); // for forces that vary in cells
   dealii::FEValues<3> values(
       model.numbers->get_fe(), gauss,
       dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
@@ -157,7 +157,7 @@ std::vector<Stress> nodal_stress(const ElasticModel &model, const std::vector<Ve
   const dealii::QGauss<3> gauss(static_cast<unsigned int>(model.degree));
   const dealii::MappingQ<3> mapping(1);
   dealii::FEValues<3> values(mapping, model.numbers->get_fe(), gauss, dealii::update_gradients);
-  // Shares of the Gauss points in each node: all of one point, or the trilinear through eight.
+  // Weights of the Gauss points for each node: one point alone, or trilinear extrapolation from eight.
   std::vector<double> share(n * gauss.size(), 1.0);
   if (model.degree == 2)
     for (std::size_t a = 0; a < n; ++a)

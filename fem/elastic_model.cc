@@ -31,7 +31,7 @@ std::string name_of(const Cell &cell) {
 void number_nodes(ElasticModel &model, const dealii::FE_Q<3> &element) {
   const auto numbers = std::make_shared<dealii::DoFHandler<3>>(*model.grid);
   numbers->distribute_dofs(element);
-  dealii::DoFRenumbering::Cuthill_McKee(*numbers); // neighbours near in memory
+  dealii::DoFRenumbering::Cuthill_McKee(*numbers); // neighbours are near in memory
   model.nodes.resize(numbers->n_dofs());
   std::vector<dealii::Point<3>> points(numbers->n_dofs());
   dealii::DoFTools::map_dofs_to_support_points(dealii::MappingQ<3>(1), *numbers, points);
@@ -83,7 +83,7 @@ void integrate_cell(const dealii::FEValues<3> &values, const Lame &c, std::vecto
       }
     }
   for (std::size_t a = 0; a < n; ++a) {
-    double *own = &blocks[9 * (a * n + a)]; // round-off may tell the two halves apart
+    double *own = &blocks[9 * (a * n + a)]; // the two halves may differ by round-off
     for (const auto &[i, j] : {std::pair{1, 3}, {2, 6}, {5, 7}})
       own[j] = own[i];
     for (std::size_t b = 0; b < a; ++b)

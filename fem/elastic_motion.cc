@@ -1,4 +1,4 @@
-// How an elastic solid moves: frame, loads, explicit steps.
+// Motion of an elastic solid: frame, loads, explicit steps.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,20 +11,20 @@
 namespace platen::fem {
 namespace {
 
-constexpr double step_share = 0.9; // of the stable step, in a drift that chooses its own
-// Of the step at which kicks alone would be unstable: a mode that oscillates half a period between kicks
-// grows by (omega_kicks dt)^2 / (2 pi) = 6 % a step at most, less than damping of the fastest mode by 5 % of
-// critical takes away (15 %).
+constexpr double step_share = 0.9; // fraction of the stable step in a drift
+// Fraction of the step at which kicks alone would be unstable: a mode that oscillates half a period between
+// kicks grows by (omega_kicks dt)^2 / (2 pi) = 6 % a step at most, less than the loss of 15 % by damping of
+// the fastest mode with 5 % of critical.
 constexpr double share_of_kicks = 0.3;
-// Longest time between kicks over the stable step: two steps of its own then do (2 * step_share). Between
-// kicks of a load that rests a body oscillates to and fro, at rest at the kicks and midway, where damping
-// acts; with three steps damping takes energy from that oscillation which nobody brought.
+// Longest time between kicks over the stable step, which two substeps then cover (2 * step_share). Under a
+// constant load a body oscillates between kicks, at rest at the kicks and midway, where damping acts. With
+// three substeps damping would take energy from that oscillation that no load has supplied.
 constexpr double steps_between_kicks = 1.8;
 
 } // namespace
 
 Vector3 ElasticSolid::carried(std::size_t node) const {
-  if (!turned_) return displacement_; // plain: what is flat stays flat to the last bit
+  if (!turned_) return displacement_; // no rotation: a flat face stays flat to the last bit
   const Vector3 r = model_.nodes[node] - pivot_;
   return displacement_ + (rotate(rotation_, r) - r);
 }
@@ -38,7 +38,7 @@ void ElasticSolid::set_velocity(const Vector3 &velocity, const Vector3 &angular_
   if (clamped_nodes_.empty()) throw std::logic_error("elastic solid: a body without clamp is not moved");
   const double before = is_static() ? 0.5 * dot(angular_velocity_, spin_) : held_kinetic_energy();
   if (turns()) {
-    // The seat's jump drags the rotor along by its mass; a turn that is asked for is added to that.
+    // The seat's velocity jump also acts on the rotor's inertia; a prescribed change of rotation is added.
     const Vector3 asked = angular_velocity - angular_velocity_;
     spin_ = spin_ + to_space(rotor_ * to_frame(asked));
     if (!is_static()) spin_ = spin_ - cross(to_space(rotor_arm_), velocity - velocity_);
@@ -65,7 +65,7 @@ double ElasticSolid::held_kinetic_energy() const {
   return 0.5 * twice;
 }
 
-// A free rotor turns by its angular velocity half-way, since its inertia turns with it.
+// A free rotor rotates by its angular velocity at half the step, since its inertia rotates with it.
 void ElasticSolid::move_frame(double dt) {
   displacement_ = displacement_ + dt * velocity_;
   if (angular_velocity_ == Vector3{}) return;
@@ -103,8 +103,8 @@ void ElasticSolid::place_surface() {
   }
 }
 
-// What the body hands to its clamp over dt: the machine takes it, or the clamp slides, or the free seat
-// turns.
+// Transfers the body's force and moment to its clamp over dt: to the machine, the sliding clamp, or the free
+// seat.
 void ElasticSolid::give_to_clamp(double dt, const Vector3 &force, const Vector3 &moment) {
   if (slides()) {
     const double along = dot(force, clamp_.slides);
@@ -121,8 +121,8 @@ void ElasticSolid::give_to_clamp(double dt, const Vector3 &force, const Vector3 
   find_angular_velocity();
 }
 
-// A seat that slides drags along what turns on it, by its mass. What the turning does to the sliding is of
-// the second order of the tilt: a guide takes it, and its work is the machine's.
+// A sliding seat also accelerates the rotor's mass. The effect of the rotation on the sliding is of second
+// order in the tilt: a guide takes it, and its work is the machine's.
 void ElasticSolid::slide(double impulse) {
   const double gain = impulse / sliding_mass_;
   if (!turns() || is_static()) {
@@ -151,7 +151,7 @@ void ElasticSolid::push(double impulse) {
 }
 
 void ElasticSolid::kick(double dt) {
-  Vector3 force{}, moment{}; // handed on to the clamp
+  Vector3 force{}, moment{}; // transferred to the clamp
   double relative = 0;       // power in the frame, quasi-static
   kicked_.clear();
   for (const int v : loaded_) {
@@ -179,8 +179,8 @@ void ElasticSolid::kick(double dt) {
   if (moves_by_itself()) place_surface();
 }
 
-// Steps as long as the kicks: frequencies add at most as squares. Shorter ones: kicks are impulses on free
-// vertices, and what they do to modes that oscillate half a period between them is left to the damping.
+// Substeps as long as the kicks: frequencies add at most as squares. Shorter ones: kicks are impulses on free
+// vertices, and the damping must remove their effect on modes that oscillate half a period between them.
 double ElasticSolid::stable_step(const VertexSprings &springs) const {
   if (is_static()) return stable_step_;
   double square = slides() ? springs.clamp / sliding_mass_ : 0, damping = 0; // 1/s^2, 1/s
@@ -245,8 +245,8 @@ void ElasticSolid::find_internal_forces() {
     f = -1.0 * to_space(f);
 }
 
-// The clamp answers the forces on free nodes, force and moment: with those on fixed nodes, the moment of
-// small strain would miss the part of the second order and angular momentum would leak.
+// The clamp takes force and moment of the forces on free nodes: with those on fixed nodes, the moment for
+// small strain would lack the part of second order and angular momentum would not be conserved.
 void ElasticSolid::internal_kick(double dt) {
   Vector3 force{}, moment{};
   for (std::size_t i = 0; i < force_.size(); ++i) {
@@ -260,7 +260,7 @@ void ElasticSolid::internal_kick(double dt) {
 }
 
 // Dashpots to the frame and between the nodes. They act where both halves of the loads' impulse meet: the
-// half that has come already is put off meanwhile, else a loaded body at rest would be damped.
+// half already applied is removed meanwhile, or else a loaded body at rest would be damped.
 void ElasticSolid::damp(double dt) {
   const double alpha = options_.mass_damping, beta = options_.stiffness_damping;
   if (alpha == 0 && beta == 0) return;
@@ -276,7 +276,7 @@ void ElasticSolid::damp(double dt) {
     relative[i] = to_frame(rate_[i] - carried_velocity(arm(i)));
   if (beta > 0) multiply(model_.stiffness, relative, impulse);
   Vector3 force{}, moment{};
-  const double slowed = 1 - portable::exp(-alpha * dt); // share of its speed that a node loses
+  const double slowed = 1 - portable::exp(-alpha * dt); // fraction of its speed that a node loses
   for (std::size_t i = 0; i < rate_.size(); ++i) {
     const double mass = model_.mass[i];
     const Vector3 w = to_space(relative[i]);

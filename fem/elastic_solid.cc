@@ -53,7 +53,7 @@ ElasticSolid::ElasticSolid(Grid grid, std::vector<Material> materials, const Cla
   if (slides()) weigh_clamp();
   stable_step_ = std::numeric_limits<double>::infinity();
   if (is_static()) return;
-  // A clamp that moves as one is no faster than its nodes are by themselves.
+  // A clamp that moves as a rigid body has no higher frequencies than its free nodes.
   const Fixed none(n, {0, 0, 0});
   const double square =
       largest_eigenvalue(model_.stiffness, model_.mass, moves_by_itself() ? none : fixed_, model_.cell_bound);
@@ -118,7 +118,6 @@ void ElasticSolid::describe(Archive &archive) {
   if (archive.reads()) follow_state();
 }
 
-// What is derived from it.
 void ElasticSolid::follow_state() {
   turned_ = !is_identity(rotation_);
   if (is_static())

@@ -1,16 +1,16 @@
-// A linear elastic body that meets the particles with its surface and a machine with its clamp. Strain is
-// small, motion is not: deformation is measured in the frame of the clamp, so that the machine may carry and
-// turn the body as far as it likes without stress.
+// A linear elastic body: its surface touches the particles, its clamp connects it to a machine. Strain is
+// small, motion may be large: deformation is measured in the frame of the clamp, so that translation and
+// rotation by the machine cause no stress.
 //
-// Place of node i: x = X + carried + R u, with u its displacement in the frame's axes. Internal forces are
-// -R K u, and the clamp answers the moment of the forces on free nodes, so that momentum and angular momentum
-// are kept exactly.
+// Position of node i: x = X + carried + R u, with u its displacement in the frame's axes. Internal forces are
+// -R K u. The clamp takes the reaction force and moment of the free nodes, so that momentum and angular
+// momentum are conserved exactly.
 //
-// Explicit: central differences with lumped mass. Loads act as impulses (kick) around a drift, which takes
-// as many steps of its own as it needs under internal forces alone (impulses of two step sizes: Grubmueller
-// et al. 1991, Tuckerman et al. 1992): of second order in both steps, and velocity Verlet where one is
-// enough. Quasi-static: no inertia of deformation; aim() solves for the shape under given loads, drift goes
-// there evenly.
+// Explicit: central differences with lumped mass. Loads act as impulses (kick) before and after a drift,
+// which takes as many substeps as it needs under internal forces alone (impulses of two step sizes:
+// Grubmueller et al. 1991, Tuckerman et al. 1992): second order in both steps, and velocity Verlet with one
+// substep. Quasi-static: no inertia of deformation; aim() solves for the shape under given loads, drift moves
+// to it at constant velocity.
 #pragma once
 
 #include <array>
@@ -27,16 +27,15 @@ namespace platen::fem {
 
 constexpr int no_clamp = -1;
 
-// How the machine holds a body: by the nodes on the faces of one tag, in all directions.
+// Connection to the machine: all components of the nodes on the faces of one tag are prescribed.
 struct Clamp {
-  int tag =
-      high_end_tag; // no_clamp: a free body, whose frame stays where it is (small motion; explicit only)
-  // Free to turn about the seat, which the machine moves: the frame turns as a rigid rotor under the moment
-  // on the clamp (explicit) or of all loads (quasi-static).
+  int tag = high_end_tag; // no_clamp: a free body with a fixed frame (small motion; explicit only)
+  // Free to rotate about the seat, which the machine moves: the frame rotates as a rigid rotor under the
+  // moment on the clamp (explicit) or of all loads (quasi-static).
   bool turns = false;
   Vector3 seat{}; // m, centre of the spherical seat at the start
-  // Unit vector along which it goes by itself, by its mass, what is attached to it, what the body hands to it
-  // and push(); zero: as the machine says. Quasi-static: with the mass of all the body.
+  // Unit vector of free sliding: the clamp, with the attached mass, moves under the body's reaction and
+  // push(). Zero: the machine prescribes the motion. Quasi-static: with the mass of the whole body.
   Vector3 slides{};
 };
 
@@ -45,10 +44,10 @@ enum class ElasticMotion { explicit_steps, quasi_static };
 struct ElasticOptions {
   int degree = 1;
   ElasticMotion motion = ElasticMotion::explicit_steps;
-  double mass_damping = 0;      // 1/s, rate at which velocities relative to the frame die away; explicit
-  double stiffness_damping = 0; // s, damping stress over stress per rate of strain; explicit
+  double mass_damping = 0;      // 1/s, decay rate of velocities relative to the frame; explicit
+  double stiffness_damping = 0; // s, damping matrix over stiffness matrix (Rayleigh); explicit
   double fastest_damping =
-      0; // fraction of critical that more of the same gives to the fastest mode; explicit
+      0; // fraction of critical damping added to the fastest mode by stiffness damping; explicit
   LinearSolver solver = LinearSolver::automatic;
 };
 
@@ -56,7 +55,7 @@ struct ElasticOptions {
 class ElasticSolid : public Body {
 public:
   // Materials by material id of the cells. Throws std::invalid_argument as make_elastic_model does, and where
-  // no face has the clamp's tag, an option is out of range or two exclude each other.
+  // no face has the clamp's tag, an option is out of range or two options exclude each other.
   ElasticSolid(Grid grid, std::vector<Material> materials, const Clamp &clamp,
                const ElasticOptions &options = {});
 
@@ -64,8 +63,8 @@ public:
   const std::vector<int> &clamped_nodes() const { return clamped_nodes_; }
   double mass() const override { return mass_; } // kg
 
-  // Motion of the frame, as that of a rigid body about its centre of mass (about the seat, where it turns
-  // freely: then angular velocities are its own, and the other form keeps them).
+  // Motion of the frame, as that of a rigid body about its centre of mass. A clamp that turns freely rotates
+  // about its seat instead; the first form then keeps its angular velocity.
   void set_velocity(const Vector3 &velocity) override;                           // m/s
   void set_velocity(const Vector3 &velocity, const Vector3 &angular_velocity);   // m/s; rad/s, global axes
   const Vector3 &velocity() const override { return velocity_; }                 // m/s, of centre or seat
@@ -75,51 +74,50 @@ public:
   const Quaternion &rotation() const override { return rotation_; }
   bool turns() const override { return clamp_.turns; }
 
-  // Of a clamp that slides: `mass` (kg) that is fixed to it besides, before the first step; all that goes
-  // with it; how fast it goes. An impulse (N s) along its way, whose work is one of the loads.
+  // For a sliding clamp: attach() fixes a further `mass` (kg) to it, before the first step; sliding_mass()
+  // includes it. push() applies an impulse (N s) along `slides`; its work counts as work of the loads.
   void attach(double mass) { sliding_mass_ += mass, attached_mass_ = mass; }
   double sliding_mass() const { return sliding_mass_; }                     // kg
   double sliding_velocity() const { return dot(velocity_, clamp_.slides); } // m/s
   void push(double impulse);
 
   void kick(double dt) override; // impulse of the loads over dt (s)
-  // Moves everything over dt in steps of at most 0.9 of the stable one. Surface velocities are then those of
-  // the path: their product with dt is what each vertex went.
+  // Moves everything over dt in steps of at most 0.9 of the stable step. Surface velocities are then means
+  // over the path: displacement of each vertex divided by dt.
   void drift(double dt) override;
   void drift(double dt, int substeps);
   double stable_step() const { return stable_step_; } // s, of explicit steps; infinite for quasi-static
   double stable_step(const VertexSprings &springs) const override;
-  std::vector<FaceCompliance> face_compliance() const override; // as fem/face_compliance.h, at the start
-  int substeps(double dt) const;                                // that drift(dt) takes
+  std::vector<FaceCompliance> face_compliance() const override; // see fem/elastic_model.h; at the start
+  int substeps(double dt) const;                                // number in drift(dt)
   double last_move() const override { return last_move_; }
 
   // Quasi-static: solves for the shape under loads (N, global axes, one per vertex: a mean over the time
-  // since the last call) and goes there evenly over `duration` (s); 0: at once, without velocity. Throws
-  // std::logic_error for an explicit body.
+  // since the last call) and moves to it at constant velocity over `duration` (s); 0: at once, with zero
+  // velocity. Throws std::logic_error for an explicit body.
   void aim(const std::vector<Vector3> &vertex_loads, double duration);
-  // Springs by which the loads answer to the displacement of each vertex (N/m, at least half of what they
-  // are): solved for with a duration, the body then takes as much of them into account as if they stood on
-  // ground where it was on the mean under the loads. Loads that are not followed so oscillate ever more from
-  // solve to solve where the body is softer than its contacts. At rest nothing is left of them. Quasi-static,
-  // before the first aim().
+  // Stiffness of the contacts that load each vertex (N/m, at least half of the true value). aim() with a
+  // duration then includes these springs, anchored at the mean position of the body under the loads. Without
+  // them the loads oscillate with growing amplitude from solve to solve where the body is softer than its
+  // contacts. At rest they have no effect. Quasi-static, before the first aim().
   void set_support(const std::vector<double> &vertex_stiffness);
-  // Solves until the supported body has come to its place along a direction (unit, frame's axes) but for 1/e:
-  // about 2 + 3/2 D/K of springs D on a body K. After set_support().
+  // Number of solves until the supported body is within 1/e of its final position along a direction (unit,
+  // frame's axes): about 2 + 3/2 D/K for springs D on a body K. After set_support().
   double solves_behind(const Vector3 &direction);
   LinearSolver solver_kind() const; // direct or multigrid, once aim() was called
 
   double kinetic_energy() const; // J
   EnergyBalance energy_balance() const override;
 
-  // Displacement of each node in the frame's axes (m): what is strained.
+  // Displacement of each node relative to the frame, in the frame's axes (m).
   std::vector<Vector3> deformation() const;
 
-  // To be taken between steps.
+  // Call it between steps.
   void describe(Archive &archive) override;
 
-  // Writes the grid where it is now as VTU (binary, zlib; cells of degree 2 as such) with displacement (m),
-  // stress and von_mises (Pa, in the frame's axes, per material), contact_pressure, contact_shear (Pa) and
-  // slip (m; one value per vertex, or empty for zero).
+  // Writes the grid in its current position as VTU (binary, zlib; cells of degree 2 as such) with
+  // displacement (m), stress and von_mises (Pa, in the frame's axes, per material), contact_pressure,
+  // contact_shear (Pa) and slip (m; one value per vertex, or empty for zero).
   void write_vtu(std::ostream &stream, const std::vector<double> &slip = {}) const override;
 
 private:
@@ -156,7 +154,7 @@ private:
   void slide(double impulse);
 
   // Quasi-static.
-  double share() const { return duration_ > 0 ? elapsed_ / duration_ : 1.0; } // of the path to the target
+  double share() const { return duration_ > 0 ? elapsed_ / duration_ : 1.0; } // fraction of the path
   double path_strain() const;
   void measure_path();
   void drift_evenly(double dt);
@@ -169,9 +167,9 @@ private:
   double mass_ = 0, stable_step_ = 0;
   double sliding_mass_ = 0, attached_mass_ = 0; // kg
   Vector3 pivot_{};                             // m, centre of mass or seat at the start
-  Matrix3 rotor_{};                             // kg m^2 about the seat, frame's axes, of what turns as one
+  Matrix3 rotor_{};                             // kg m^2 about the seat, frame's axes, of the rigid rotor
   Matrix3 rotor_inverse_{};
-  Vector3 rotor_arm_{}; // kg m, first moment of the same, frame's axes
+  Vector3 rotor_arm_{}; // kg m, its first moment, frame's axes
 
   Vector3 displacement_{}, velocity_{}, angular_velocity_{}, spin_{}; // spin_: angular momentum of the rotor
   Quaternion rotation_;
@@ -179,20 +177,20 @@ private:
   std::vector<Vector3> moved_, rate_;     // m, m/s per node, global axes; explicit
   std::vector<Vector3> strained_, force_; // m and N per node: u, and internal forces in global axes
   std::vector<Vector3> start_, target_;   // m per node, frame's axes; quasi-static
-  double elapsed_ = 0, duration_ = 0;     // s since the start of the path, and of it
+  double elapsed_ = 0, duration_ = 0;     // s since the start of the path, and its total
   bool on_the_path_ = false;              // whether the last drift deformed the body
   std::array<double, 3> path_{};          // J: strain energy is path[0] + s path[1] + s^2 path[2] along it
   double last_step_ = 0, last_move_ = 0;
   double load_work_ = 0, clamp_work_ = 0;
-  double dissipated_ = 0; // J; quasi-static: work on the deformation less its energy
+  double dissipated_ = 0; // J; quasi-static: work on the deformation less strain energy
   struct Kicked {
     std::size_t node;
     Vector3 gain, before; // m/s
   };
-  std::vector<Kicked> kicked_;          // by the loads since the last drift
-  double pushed_ = 0;                   // N s, the impulse on a sliding clamp before it
+  std::vector<Kicked> kicked_;          // nodes with loads since the last drift
+  double pushed_ = 0;                   // N s, the same for a sliding clamp
   std::vector<StaticEquations> solver_; // none until the first aim()
-  std::vector<double> support_;         // N/m per node; empty without
+  std::vector<double> support_;         // N/m per node; empty without support
   NodeMatrix supported_;                // stiffness and support
   std::vector<StaticEquations> supported_solver_;
 };

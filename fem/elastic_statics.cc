@@ -1,4 +1,4 @@
-// What an elastic solid stores and bears, and its shape without inertia.
+// Energies of an elastic solid, and its shape without inertia.
 #include <stdexcept>
 
 #include "fem/elastic_model.h"
@@ -91,7 +91,7 @@ void ElasticSolid::aim(const std::vector<Vector3> &vertex_loads, double duration
   elapsed_ = 0, duration_ = duration > 0 ? duration : 0;
   on_the_path_ = duration_ > 0;
   measure_path();
-  if (!on_the_path_) { // the loads act in full all along the path
+  if (!on_the_path_) { // the full loads act along the whole path
     double work = 0;
     for (std::size_t i = 0; i < load.size(); ++i)
       work += dot(load[i], target_[i] - start_[i]);
@@ -105,7 +105,7 @@ void ElasticSolid::drift_evenly(double dt) {
   move_frame(dt);
   on_the_path_ = elapsed_ < duration_;
   const double before = path_strain();
-  // A path of n steps is n steps long, whatever round-off says of their sum.
+  // A path of n steps ends after n steps, also with round-off in their sum.
   elapsed_ = elapsed_ + dt * (1 + 1e-9) >= duration_ ? duration_ : elapsed_ + dt;
   dissipated_ -= path_strain() - before;
 }
@@ -126,9 +126,9 @@ void ElasticSolid::set_support(const std::vector<double> &vertex_stiffness) {
   }
 }
 
-// Springs D on a body K: (K + D) u = F + D (u' + u'') / 2, with its last two places, leaves 1 - 1 / (2 + 3/2
-// D/K) of a way to the next solve where that is many. D/K from the share a = D / (K + D) of a shift of all
-// springs that the body makes at once.
+// Springs D on a body K: (K + D) u = F + D (u' + u'') / 2, with its last two positions, leaves a fraction 1 -
+// 1 / (2 + 3/2 D/K) of the distance to the next solve, if the number of solves is large. D/K follows from a =
+// D / (K + D), the fraction of a shift of all springs that the body follows at once.
 double ElasticSolid::solves_behind(const Vector3 &direction) {
   constexpr double without = 2;
   if (support_.empty()) return without;

@@ -6,9 +6,9 @@
 namespace platen::fem {
 namespace {
 
-// Of a half space, by the difference between it and fixed patches (see the header).
+// For a half space, from the difference between it and fixed patches (see the header).
 constexpr double beyond_the_patch = 0.55;
-// A pivot below this share of its diagonal: nothing holds the patch.
+// A pivot below this fraction of its diagonal: the patch is not fixed.
 constexpr double loose = 1e-10;
 
 std::size_t index(int i) {
@@ -53,7 +53,7 @@ bool solve(std::vector<double> &a, std::vector<double> &b) {
   return true;
 }
 
-// Surroundings of one node after another.
+// The patch around one node after another.
 class Patch {
 public:
   Patch(const ElasticModel &model, const Fixed &fixed) : model_(model), fixed_(fixed) {
@@ -68,7 +68,7 @@ public:
 
   bool holds(std::size_t node) const { return fixed_[node][0] || fixed_[node][1] || fixed_[node][2]; }
 
-  // Pushes a node by a unit force.
+  // Applies a unit force to a node and solves for the patch.
   void push(int node, const Vector3 &direction) {
     for (const int other : nodes_)
       place_[index(other)] = -1;
@@ -92,7 +92,7 @@ public:
     find_beyond(node);
   }
 
-  // m/N: how far another node goes along a direction.
+  // m/N: displacement of another node along a direction.
   double moves(int node, const Vector3 &direction, const Vector3 &pushed) const {
     const int k = place_[index(node)];
     if (k < 0 || answer_.empty()) return 0;
@@ -117,7 +117,7 @@ private:
     border_.erase(std::unique(border_.begin(), border_.end()), border_.end());
   }
 
-  // What the machine holds is fixed; the rest of the border gives way.
+  // Nodes fixed by the machine do not move; the rest of the border is compliant.
   void find_beyond(int node) {
     if (border_.empty()) return;
     double sum = 0;
@@ -133,7 +133,7 @@ private:
   std::size_t per_cell_ = 0;
   std::vector<std::vector<std::size_t>> cells_of_; // each node
   std::vector<int> place_;                         // of each node in the patch, or -1
-  std::vector<int> nodes_, border_;                // free ones, and those that hold them
+  std::vector<int> nodes_, border_;                // free nodes of the patch, and its fixed neighbours
   std::vector<double> matrix_, answer_;
   double beyond_ = 0; // m/N
 };
@@ -154,7 +154,7 @@ std::vector<FaceCompliance> face_compliance(const ElasticModel &model, const Nod
         const std::array<int, 4> &corners = faces[index(f)];
         if (index(corners[i]) != v) continue;
         for (std::size_t j = 0; j < 4; ++j) {
-          // Each pair is seen from both sides; what lies beyond differs a little.
+          // Each pair occurs in both orders; what lies beyond differs a little.
           const std::size_t w = index(corners[j]);
           const double half = 0.5 * patch.moves(surface.node[w], normal[w], normal[v]);
           compliance[index(f)][i][j] += half;

@@ -18,7 +18,7 @@
 namespace platen::fem {
 namespace {
 
-constexpr double smallest = 1e-6, largest = 100; // m, across a body that a specimen can be pressed with
+constexpr double smallest = 1e-6, largest = 100; // m, allowed size of a platen
 
 [[noreturn]] void refuse(const GmshOptions &options, const std::string &what) {
   throw std::invalid_argument((options.name.empty() ? "Gmsh file" : options.name) + ": " + what);

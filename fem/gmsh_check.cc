@@ -19,7 +19,7 @@ enum Kind { line_kind = 1, quad_kind = 3, hexahedron_kind = 5, point_kind = 15 }
 struct Element {
   Kind kind;
   int line;
-  std::array<Id, 8> nodes; // -1 beyond those of its kind
+  std::array<Id, 8> nodes; // -1 beyond the nodes of its kind
 };
 
 int nodes_of(const Words &words, int kind) {
@@ -63,7 +63,7 @@ void add_element(Words &words, int kind, Contents &mesh) {
   mesh.elements.push_back(element);
 }
 
-// Format 2.2: each node and each element by itself.
+// Format 2.2: single nodes and elements.
 void read_singly(Words &words, Contents &mesh) {
   for (int k = 0, count = words.whole("number of nodes", 1); k < count; ++k) {
     add_node(words, mesh);
@@ -157,7 +157,7 @@ Contents read(Words &words) {
   return mesh;
 }
 
-// The same for the same loop of corners, wherever it begins and whichever way it goes.
+// Equal for equal loops of corners, with any start and direction.
 using Face = std::array<Id, 4>;
 Face face_of(Face loop) {
   std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());

@@ -1,4 +1,4 @@
-// Grids made from others (layered, moved, laid against a specimen), and what is read off a grid.
+// Grids made from others (layered, moved, placed against a specimen), and measures of a grid.
 #include <deal.II/base/multithread_info.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_nothing.h>
@@ -40,7 +40,7 @@ int elements_of(const std::vector<Layer> &layers) {
   return sum;
 }
 
-// From even heights between low and high to those of the layers, by whole numbers: ends keep their bits.
+// Moves uniform heights between low and high to those of the layers, by integers: ends keep their bits.
 void stretch(dealii::Triangulation<3> &grid, const std::vector<Layer> &layers, double low, double high) {
   std::vector<double> heights = {low};
   std::vector<unsigned int> material;
@@ -65,7 +65,7 @@ void stretch(dealii::Triangulation<3> &grid, const std::vector<Layer> &layers, d
 }
 
 constexpr double in_plane = 1e-6;     // of the height, for rounded coordinates
-constexpr double looking_share = 0.5; // of a normal along the axis: 60 degrees
+constexpr double looking_share = 0.5; // axial component of a unit normal: 60 degrees
 
 template <class Face>
 bool lies_at(const Face &face, double z, double near) {
@@ -74,7 +74,7 @@ bool lies_at(const Face &face, double z, double near) {
   return true;
 }
 
-// The share of the outward normal along z.
+// The z component of the outward unit normal.
 template <class Face>
 double looks_along_z(const Face &face, const dealii::Point<3> &inside) {
   const auto normal =
@@ -83,7 +83,7 @@ double looks_along_z(const Face &face, const dealii::Point<3> &inside) {
   return size > 0 ? side * normal[2] / size : 0.0;
 }
 
-// Bodies may be made on several threads at once.
+// Several threads may create bodies at once.
 void count(int more) {
   static std::mutex mutex;
   static int alive = 0;
@@ -136,7 +136,7 @@ Grid moved_grid(const Grid &grid, const std::function<Vector3(const Vector3 &)> 
 std::string inverted_cell(const Grid &grid) {
   for (const auto &cell : grid->active_cell_iterators())
     for (const unsigned int v : cell->vertex_indices()) {
-      // Edges along the cell's three axes, of which bits of v tell the direction.
+      // Edges along the cell's three axes; the bits of v give the direction.
       std::array<dealii::Tensor<1, 3>, 3> edge;
       for (unsigned int k = 0; k < 3; ++k)
         edge[k] = (v >> k & 1U ? -1.0 : 1.0) * (cell->vertex(v ^ (1U << k)) - cell->vertex(v));
@@ -224,7 +224,7 @@ Grid laid_platen(const Grid &grid, bool faces_up, double plane) {
   const double shift = plane - (faces_up ? high : low), near = in_plane * (high - low);
   const double fixed = (faces_up ? low : high) + shift;
   const Grid laid = moved_grid(grid, [&](const Vector3 &p) {
-    const bool extreme = std::abs(p[2] + shift - plane) <= near; // what is flat is flat to the last bit
+    const bool extreme = std::abs(p[2] + shift - plane) <= near; // a flat end is flat to the last bit
     return Vector3{p[0], p[1], extreme ? plane : p[2] + shift};
   });
   const int near_tag = faces_up ? high_end_tag : low_end_tag, far_tag = faces_up ? low_end_tag : high_end_tag;

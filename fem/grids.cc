@@ -15,7 +15,7 @@
 namespace platen::fem {
 namespace {
 
-// Rings around the core of a disc with so many cells across.
+// Number of rings around the core of a disc with `across` cells across.
 int rings_of(int across) {
   return std::max(1, across / 4);
 }
@@ -43,7 +43,7 @@ public:
   }
 
 private:
-  // The core's sides bulge a little towards the circle, which keeps the corners of the first ring open.
+  // The core's sides bulge a little towards the circle, so that the corners of the first ring stay wide.
   dealii::Point<2> core_point(int i, int j) const {
     const double share = static_cast<double>(n_) / (n_ + 2.0 * rings_), bulge = 0.15;
     const double a = 2.0 * i / n_ - 1.0, b = 2.0 * j / n_ - 1.0;
@@ -67,7 +67,7 @@ private:
     if (side == 2) return core(n_ - along, n_);
     return core(0, n_ - along);
   }
-  // Corners counter-clockwise; deal.II wants the last two swapped.
+  // Corners counter-clockwise; deal.II expects the last two swapped.
   void add_cell(int a, int b, int c, int d) {
     dealii::CellData<2> cell;
     cell.vertices = {static_cast<unsigned int>(a), static_cast<unsigned int>(b), static_cast<unsigned int>(d),
@@ -129,7 +129,7 @@ Grid make_grid(const BoxPlate &plate) {
       *grid, {count(0), count(1), count(2)}, dealii::Point<3>(plate.low[0], plate.low[1], plate.low[2]),
       dealii::Point<3>(plate.high[0], plate.high[1], plate.high[2]), true);
   for (const auto &cell : grid->active_cell_iterators())
-    cell->set_material_id(0); // the generator numbers octants
+    cell->set_material_id(0); // the generator sets ids by octant
   return grid;
 }
 
@@ -141,7 +141,7 @@ bool touch(const BoxPlate &a, const BoxPlate &b) {
   return true;
 }
 
-// How far outside a box a point lies along the axis that says most, m; 0 inside.
+// Largest distance of a point outside a box along an axis, m; 0 inside.
 double outside(const BoxPlate &box, const dealii::Point<3> &p) {
   double most = 0;
   for (unsigned int k = 0; k < 3; ++k)
@@ -165,7 +165,7 @@ unsigned int side_of(const BoxPlate &box, const dealii::Point<3> &middle) {
 
 namespace {
 
-// Boxes made one by one, in one grid; merging keeps materials and forgets whose side a face is.
+// Makes boxes one by one and merges them; merging keeps materials but not the tags of the sides.
 Grid merged(const std::vector<BoxPlate> &boxes, const std::function<Grid(const BoxPlate &)> &make) {
   require(!boxes.empty(), "platen grid: there are no boxes");
   for (std::size_t k = 0; k < boxes.size(); ++k)

@@ -1,4 +1,4 @@
-// Finite-element grids of platens, and what a body reads off them. deal.II stays in the .cc files.
+// Finite-element grids of platens, and the data that a body reads from them. Only .cc files include deal.II.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ namespace platen::fem {
 
 using Grid = std::shared_ptr<dealii::Triangulation<3, 3>>;
 
-// Boundary ids of both kinds of plate, as SurfaceMesh::face_tags shows them. A box numbers its sides
-// x-, x+, y-, y+ = 0 ... 3; the mantle of a cylinder is 0.
+// Boundary ids of both kinds of plate, as in SurfaceMesh::face_tags. A box numbers its sides x-, x+, y-, y+ =
+// 0 ... 3; the mantle of a cylinder is 0.
 constexpr int low_end_tag = 4;  // face z = z_low
 constexpr int high_end_tag = 5; // face z = z_low + thickness
 constexpr int mantle_tag = 0;   // outer face of a tube
@@ -36,15 +36,15 @@ struct CylinderPlate {
   int elements_thick = 2;
 };
 
-// A plate between two corners, all hexahedra alike.
+// A plate between two corners; all hexahedra are equal.
 struct BoxPlate {
   Vector3 low{}, high{}; // m
   std::array<int, 3> elements{1, 1, 1};
 };
 
 // A tube about the z axis: a sleeve. Its nodes lie on circles, so its faces are chords: the inner face comes
-// closer to the axis than its nodes by the share pi^2 / (2 n^2) of the radius at n elements around (.12 % at
-// 64). Tags: inner_tag, mantle_tag, low_end_tag, high_end_tag.
+// closer to the axis than its nodes by the fraction pi^2 / (2 n^2) of the radius at n elements around (.12 %
+// at 64). Tags: inner_tag, mantle_tag, low_end_tag, high_end_tag.
 struct Tube {
   double inner_radius = 0; // m, of the nodes
   double thickness = 0;    // m
@@ -53,41 +53,41 @@ struct Tube {
   int elements_around = 48, elements_along = 24, elements_through = 1;
 };
 
-// Cells of a round plate, without making it.
+// Number of cells of a round plate, without building it.
 double cells_in(const CylinderPlate &plate);
 
 // All throw std::invalid_argument, naming the entry, where a size is not positive or a count too small.
 Grid make_grid(const CylinderPlate &plate);
 Grid make_grid(const BoxPlate &plate);
 Grid make_grid(const Tube &tube);
-// Boxes that do not touch, in one grid: strips of one rigid tool. Each has its own sides and ends by number.
-// Throws std::invalid_argument as above, and where there are none or two touch.
+// Boxes that do not touch, in one grid: strips of one rigid tool. Each box has the same tags as a single one.
+// Throws std::invalid_argument as above, and where there are no boxes or two touch.
 Grid make_grid(const std::vector<BoxPlate> &boxes);
 
-// A sheet of a layered plate; the first lies at the low end.
+// A layer of a layered plate; the first lies at the low end.
 struct Layer {
   double thickness = 0; // m
   int elements = 1;     // through it
 };
-// Plates of several materials: cells of layer k have material id k. Layers take the place of the plate's
-// elements along z; throws std::invalid_argument also where their thicknesses do not add up to the plate's.
+// Plates of several materials: cells of layer k have material id k. Layers replace the plate's elements along
+// z; throws std::invalid_argument also where their thicknesses do not add up to the plate's.
 Grid make_grid(const CylinderPlate &plate, const std::vector<Layer> &layers);
 Grid make_grid(const BoxPlate &plate, const std::vector<Layer> &layers);
-Grid make_grid(const std::vector<BoxPlate> &boxes, const std::vector<Layer> &layers); // all layered alike
+Grid make_grid(const std::vector<BoxPlate> &boxes, const std::vector<Layer> &layers); // same layers in all
 
-// The grid with its vertices moved: a dished or skew plate from a flat one. Tags and materials stay. Cells
-// that this inverts are found by those who use them.
+// The grid with its vertices moved: a dished or skew plate from a flat one. Tags and materials do not change.
+// The users of the grid check for inverted cells.
 Grid moved_grid(const Grid &grid, const std::function<Vector3(const Vector3 &)> &place);
 
 // Names the first cell that is inverted or warped through itself at a corner, with its number from 0 and the
-// place of its middle; empty where there is none.
+// position of its middle; empty where there is none.
 std::string inverted_cell(const Grid &grid);
 
 // A face of the boundary.
 struct BoundaryFace {
   std::array<int, 4> nodes;   // vertices of the grid, counter-clockwise seen from outside
   int tag;                    // boundary id
-  int cell;                   // that it belongs to
+  int cell;                   // to which it belongs
   std::array<int, 4> corners; // of that cell
 };
 std::vector<BoundaryFace> boundary_faces(const Grid &grid);
@@ -104,24 +104,24 @@ struct VolumeMoments {
 };
 VolumeMoments volume_moments(const Grid &grid);
 
-// A grid from elsewhere as a platen: laid against the specimen, its ends found.
+// An external grid as a platen: placed against the specimen, with its ends tagged.
 //
-// The grid shifted along z so that its extreme plane on the specimen's side, the highest of a platen that
-// faces up and the lowest of one that faces down, lies at z = `plane` (m); x and y stay. Tags are made anew:
-// faces in the plane of the other end, where the machine holds it, and on the specimen's side those in the
-// extreme plane; where none lies there (a convex platen), all whose normals are within 60 degrees of the
-// axis. As low_end_tag and high_end_tag; every other face gets mantle_tag. Throws std::invalid_argument where
-// no face lies in the plane of the machine's end.
+// Shifts the grid along z so that its extreme plane on the specimen's side, the highest of a platen that
+// faces up and the lowest of one that faces down, lies at z = `plane` (m); x and y do not change. Tags are
+// rebuilt as low_end_tag and high_end_tag: at the machine's end, faces in the extreme plane; on the
+// specimen's side, faces in the extreme plane, or, where none lies there (a convex platen), all whose normals
+// are within 60 degrees of the axis. Every other face gets mantle_tag. Throws std::invalid_argument where no
+// face lies in the plane of the machine's end.
 Grid laid_platen(const Grid &grid, bool faces_up, double plane);
 
-// Materials are counted from 0; how many a grid has.
+// Number of materials of a grid; material ids count from 0.
 int materials_of(const Grid &grid);
 
-// Threads of deal.II. Loops over cells and nodes use the pool of the process instead (base/parallel.h).
+// Threads of deal.II. Loops over cells and nodes use the pool of the process (base/parallel.h) instead.
 //
-// deal.II copies the geometry of a cell from the one before where both are alike, but only where it may have
-// one thread, and the last bits are others then. While any of these lives it may have two, so that matrices
-// do not depend on what a program allows it; afterwards one: a process has no second pool.
+// With one thread, deal.II copies the geometry of a cell from an equal cell before it, which changes the last
+// bits. While any object of this class exists, deal.II may have two threads, so that matrices do not depend
+// on the program's thread limit; afterwards one, since a process has no second pool.
 class NoCellReuse {
 public:
   NoCellReuse();

@@ -71,12 +71,12 @@ CellStiffness cell_stiffness(const NeoHookean &law, const ReferenceCell &cell, c
   const Deformed at(cell, displacement);
   const double ratio = at.volume / cell.volume, along = law.volume_stress(ratio);
   CellStiffness k{};
-  Corners swelling{}; // m^2, derivative of the volume by each corner
+  Corners swelling{}; // m^2, derivative of the volume by each corner's position
   for (std::size_t q = 0; q < 8; ++q) {
     const double w = cell.weight[q], j = at.j[q], shape = w * law.shape_factor(j);
     const Tensor f = tensor_at(at.f, q), cof = tensor_at(at.cof, q);
     const double third = squared_norm(f) / 3, push = w * along * j, back = shape * third - push;
-    Corners reference, g, h; // gradient in the reference place and in the current one; F times the first
+    Corners reference, g, h; // gradient in reference and current position; F times the first
     for (std::size_t a = 0; a < 8; ++a) {
       reference[a] = cell.gradient_at(q, a);
       g[a] = (1 / j) * (cof * reference[a]);
@@ -148,7 +148,7 @@ double eigenvalue_bound(const CellStiffness &stiffness, const std::array<double,
     power *= 2;
     logarithm = 2 * logarithm + portable::log(largest);
   }
-  double trace = 0; // of the square: that of the 16th power
+  double trace = 0; // of the squared matrix: the 16th power
   for (const double x : a)
     trace += x * x;
   return size * portable::exp((2 * logarithm + portable::log(trace)) / (2 * power));
@@ -184,7 +184,7 @@ std::array<double, 144> corner_area_gradient(const FaceCorners &place) {
   for (std::size_t m = 0; m < 4; ++m)
     for (std::size_t n = 0; n < 4; ++n) {
       const double s = s_of[n], t = t_of[n], st = s * t, third_s = s_of[m] / 3, third_t = t_of[m] / 3;
-      // The change of n_m under a move d of corner n is d x w.
+      // The change of n_m for a displacement d of corner n is d x w.
       const Vector3 w = 0.25 * ((s * face.b - t * face.a) + third_s * (s * face.c - st * face.a) +
                                 third_t * (st * face.b - t * face.c));
       const std::array<double, 9> block = {0, w[2], -w[1], -w[2], 0, w[0], w[1], -w[0], 0};

@@ -4,7 +4,7 @@
 //   W = sum_q w_q mu/2 (J_q^(-2/3) tr F_q'F_q - 3) + V U(v/V),   v = sum_q w_q J_q,
 // with v the exact volume of the trilinear cell (two Gauss points per axis integrate its Jacobian exactly).
 // Forces and stiffness are the exact first and second derivatives, so energy balances in any scheme and the
-// tangent is symmetric. Plain arrays, no deal.II, nothing allocated.
+// tangent is symmetric. Plain arrays, no deal.II, no allocation.
 #pragma once
 
 #include <array>
@@ -16,10 +16,10 @@
 namespace platen::fem {
 
 using Corners = std::array<Vector3, 8>; // x fastest, then y, then z
-// A number at each Gauss point: points come last, because loops over them become packed operations.
+// A number at each Gauss point. The point is the last index, so that loops over it are vectorised.
 using AtPoints = std::array<double, 8>;
 
-// A cell where it carries no stress.
+// A cell in its stress-free state.
 struct ReferenceCell {
   std::array<std::array<AtPoints, 3>, 8>
       gradient{};                        // 1/m, of each corner's shape function: corner, component
@@ -35,18 +35,18 @@ struct ReferenceCell {
 };
 
 struct CellForce {
-  Corners force{};   // N, derivative of the stored energy by the corners' places
+  Corners force{};   // N, derivative of the stored energy by the corners' positions
   double energy = 0; // J
 };
 
-// Row 3 a + i, column 3 b + k: derivative of force a, i by place b, k; N/m. Symmetric.
+// Row 3 a + i, column 3 b + k: derivative of force a, i by position b, k; N/m. Symmetric.
 using CellStiffness = std::array<double, 24 * 24>;
 
 // Triple product of the three edges that meet at each corner, m^3: positive where the corner is not folded.
 std::array<double, 8> corner_volumes(const Corners &place);
 
-// Smallest of the volume ratios at Gauss points and corners: what is_inverted() has to be asked about before
-// forces are computed.
+// Smallest of the volume ratios at Gauss points and corners. Check it with is_inverted() before forces are
+// computed.
 double smallest_volume_ratio(const ReferenceCell &cell, const Corners &displacement, const Corners &place);
 
 CellForce cell_force(const NeoHookean &law, const ReferenceCell &cell, const Corners &displacement);
@@ -63,26 +63,26 @@ CellStress cell_stress(const NeoHookean &law, const ReferenceCell &cell, const C
 // of the trace of the 16th power, at most 24^(1/16) = 1.22 times the largest.
 double eigenvalue_bound(const CellStiffness &stiffness, const std::array<double, 8> &mass);
 
-// Pressure that stays at right angles to a deforming face: forces, work and load stiffness of bilinear
+// Follower pressure, always normal to a deforming face: forces, work and load stiffness of bilinear
 // quadrilaterals, all in closed form.
 //
 // With x = m + a s + b t + c s t on [-1, 1]^2 the area vector is (a x b) + s (a x c) + t (c x b): linear, so
 // that its products with the shape functions integrate to
 //   n_A = a x b + s_A/3 a x c + t_A/3 c x b   at corner A (s_A, t_A = +-1),
 // and the force there is -p n_A. The n_A of a face sum to its area vector; over a closed surface n_A is the
-// exact derivative of the enclosed volume by the corner's place, whether faces are flat or warped.
+// exact derivative of the enclosed volume by the corner's position, whether faces are flat or warped.
 
 using FaceCorners = std::array<Vector3, 4>; // counter-clockwise seen from outside
 
-// Share of the area vector that belongs to each corner, m^2; pressure p pushes there with -p times it.
+// Part of the area vector that belongs to each corner, m^2; the force of a pressure p there is -p times it.
 FaceCorners corner_areas(const FaceCorners &place);
 
-// Volume that a face sweeps outwards while its corners go straight from one place to another, m^3, exact
-// (the rate is a square polynomial of the path, two Gauss points). A constant pressure p on it does the work
-// -p times that. Summed over a closed surface it is the change of the enclosed volume.
+// Volume that a face sweeps outwards while its corners move straight from one position to another, m^3, exact
+// (the rate is a quadratic polynomial along the path, two Gauss points). A constant pressure p on it does the
+// work -p times that volume. Summed over a closed surface it is the change of the enclosed volume.
 double swept_volume(const FaceCorners &from, const FaceCorners &to);
 
-// Row 3 A + i, column 3 B + k: derivative of n_A, i by place B, k; m. Not symmetric, unless summed over a
+// Row 3 A + i, column 3 B + k: derivative of n_A, i by position B, k; m. Not symmetric, unless summed over a
 // closed surface.
 std::array<double, 144> corner_area_gradient(const FaceCorners &place);
 

@@ -1,5 +1,4 @@
-// What a HyperelasticSolid does with its faces and with single cells: pressure, volumes, inversion,
-// stiffness.
+// Functions of HyperelasticSolid for faces and single cells: pressure, volumes, inversion, stiffness.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -54,9 +53,9 @@ double HyperelasticSolid::pressure_work_to(const std::vector<Vector3> &displacem
 // By the divergence theorem: faces as bilinear patches (exact, flat or warped), then each rim as a fan of
 // triangles about the mean of its nodes.
 double HyperelasticSolid::enclosed_volume(int tag) const {
-  std::set<std::pair<int, int>> edges; // walked one way only
+  std::set<std::pair<int, int>> edges; // edges passed in one direction only
   double volume = 0;
-  Vector3 origin{}; // a near one loses fewer digits
+  Vector3 origin{}; // a near origin loses fewer digits
   bool found = false;
   for (const BoundaryFace &face : mesh_.faces) {
     if (face.tag != tag) continue;
@@ -167,7 +166,7 @@ void HyperelasticSolid::lay_out_stiffness() {
   }
 }
 
-// The symmetric part: that of the pressure is symmetric but for its rims.
+// The symmetric part: only at its rims is the stiffness of the pressure not symmetric.
 void HyperelasticSolid::assemble(const std::vector<CellStiffness> &cells, NodeMatrix &rows) const {
   rows.clear_blocks();
   for (std::size_t c = 0; c < cells.size(); ++c)
@@ -182,8 +181,8 @@ void HyperelasticSolid::assemble(const std::vector<CellStiffness> &cells, NodeMa
       }
 }
 
-// At most the largest of one cell, with the cell's own share of the masses (Irons, Treharne 1971; each
-// pressed face belongs to one cell). Neighbours that share nodes seldom oscillate so all at once.
+// Bound: the largest eigenvalue of one cell, with the cell's own part of the masses (Irons, Treharne 1971;
+// each pressed face belongs to one cell). Neighbours that share nodes rarely oscillate all at once.
 double HyperelasticSolid::stable_step() const {
   struct Largest {
     double value = 0;

@@ -111,7 +111,7 @@ void HyperelasticSolid::set_node_velocities(int motion, const std::vector<Vector
     give_velocity(own, own.nodes[k], velocities[k]);
 }
 
-// What a new prescribed velocity adds to the energy of motion is the machine's work as well.
+// The machine also does the work of the kinetic energy that a new prescribed velocity adds.
 void HyperelasticSolid::give_velocity(const PrescribedMotion &motion, int node, const Vector3 &given) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (!motion.components[k]) continue;
@@ -153,7 +153,7 @@ void HyperelasticSolid::set_damping(double rate) {
 }
 
 void HyperelasticSolid::half_kick(double dt) {
-  const double h = 0.5 * dt, drag = 0.5 * h * damping_; // by the velocity in the middle of the kick
+  const double h = 0.5 * dt, drag = 0.5 * h * damping_; // uses the velocity in the middle of the kick
   struct Works {
     double prescribed = 0, damping = 0;
     void operator+=(const Works &other) { prescribed += other.prescribed, damping += other.damping; }
@@ -203,7 +203,7 @@ void HyperelasticSolid::drift(double dt, bool looked) {
   place_surface();
 }
 
-// Each cell's forces go to a row of its own; nodes then add the rows that meet there, in order.
+// Each cell's forces are stored separately; each node then adds the forces of its cells, in order.
 void HyperelasticSolid::update_forces() {
   for_each(
       mesh_.cells.size(),
@@ -262,7 +262,7 @@ void HyperelasticSolid::describe(Archive &archive) {
   if (archive.reads()) follow_state();
 }
 
-// Forces under the pressures that acted when they were found.
+// Forces under the pressures of the last force computation.
 void HyperelasticSolid::follow_state() {
   check(displacement_);
   place_surface();

@@ -1,10 +1,10 @@
 // A solid of rubber at finite strain: the sleeve around a specimen, or a block. Nodes carry mass and motion,
-// cells (mean_dilatation.h) give the internal forces, faces of a tag carry a follower pressure
-// (follower_pressure.h), and one part of the surface meets the particles, as a Body's does.
+// cells give the internal forces, faces of a tag carry a follower pressure (hyperelastic_cell.h), and one
+// part of the surface touches the particles, as a Body's does.
 //
 // Explicit: velocity Verlet, in the order half_kick, drift, [contact loads], update_forces, half_kick. An
-// element that would turn inside out is found at its new place before the law is asked, and the solid stays
-// where it was.
+// element that would be inverted is found at its new position before the law is evaluated, and the solid does
+// not move.
 //
 // Signs: pressure positive when it pushes into the solid; works positive when done on the solid.
 #pragma once
@@ -27,20 +27,20 @@ struct Rubber {
   NeoHookean law;
 };
 
-// Thrown before an inverted element is used; the text names cell, place, volume ratio and load.
+// Thrown before an inverted element is used; the text gives cell, position, volume ratio and load.
 struct InvertedElement : std::runtime_error {
   InvertedElement(const std::string &what, int cell_, const Vector3 &place_, double volume_ratio_)
       : std::runtime_error(what), cell(cell_), place(place_), volume_ratio(volume_ratio_) {}
   int cell;
-  Vector3 place; // m, middle of the cell where it would have been
+  Vector3 place; // m, middle of the cell at its new position
   double volume_ratio;
 };
 
 class HyperelasticSolid : public LoadedSurface {
 public:
-  // `contact_tags`: the part of the surface that meets the particles (inner_tag for a sleeve: its outer face
-  // is then never seen); empty for all of it. Throws std::invalid_argument where a constant is out of range,
-  // a cell folded or a tag has no faces.
+  // `contact_tags`: the part of the surface that touches the particles (inner_tag for a sleeve: its outer
+  // face then has no contacts); empty for all of it. Throws std::invalid_argument where a constant is out of
+  // range, a cell is folded or a tag has no faces.
   HyperelasticSolid(Grid grid, const Rubber &material, const std::vector<int> &contact_tags = {});
 
   const Rubber &material() const { return material_; }
@@ -49,31 +49,31 @@ public:
   double mass() const { return material_.density * volume_; }              // kg
   std::vector<int> nodes_of(int tag) const { return mesh_.nodes_of(tag); } // ascending
 
-  // The part that meets the particles: current vertices and velocities, outward normals of the solid (those
-  // of the inner face of a tube point to the axis), is surface().
+  // surface() is the part that touches the particles: current vertices and velocities, outward normals of the
+  // solid (those of the inner face of a tube point to the axis).
   int surface_node(int vertex) const { return surface_node_[static_cast<std::size_t>(vertex)]; }
   double surface_mass(int vertex) const { return mass_[index(surface_node(vertex))]; } // kg
-  double largest_move(double dt) const; // m, bound on how far any node moves in a drift over dt
+  double largest_move(double dt) const; // m, upper bound of node displacements in a drift over dt
 
-  // Nodes whose motion is given. `components` says which of x, y, z: all for an end that is bonded to a
+  // Prescribes the motion of nodes in some of the components x, y, z: all for an end that is bonded to a
   // platen, z alone for one that slides along it. Returns the number of the motion. Throws where a component
   // of a node is prescribed already.
   int prescribe(const std::vector<int> &nodes, const std::array<bool, 3> &components);
-  // m/s; rad/s about a point (m). Takes effect at the next half_kick, with the places of now: call it again
-  // each step while a prescribed motion turns.
+  // m/s; rad/s about a point (m). Takes effect at the next half_kick, with the node positions at that time:
+  // call it again each step while a prescribed motion rotates.
   void set_prescribed_velocity(int motion, const Vector3 &velocity, const Vector3 &spin = {},
                                const Vector3 &about = {});
-  // From now on each node has a velocity of its own, by a call of set_node_velocities: an end that turns.
-  // Until the first call they stand.
+  // From now on set_node_velocities prescribes the velocity of each node: an end that rotates. Until its
+  // first call the velocities do not change.
   void prescribe_each(int motion);
-  // m/s, in the order of the nodes; takes effect at once. Jumps are the machine's work.
+  // m/s, in the order of the nodes; takes effect at once. The work of velocity jumps is the machine's.
   void set_node_velocities(int motion, const std::vector<Vector3> &velocities);
-  Vector3 prescribed_force(int motion) const; // N, that the machine does on the solid there, without inertia
+  Vector3 prescribed_force(int motion) const; // N, of the machine on the solid, without inertia
 
-  // Pa, on all faces of a tag from now on. Throws where there is none.
+  // Pa, on all faces of a tag from now on. Throws where no face has it.
   void set_pressure(int tag, double pressure);
   double pressure(int tag) const; // Pa; 0 where none was set
-  // m^3, inside the faces of a tag, closed by flat lids over its rims (exact where those lie in planes).
+  // m^3, inside the faces of a tag, closed by flat lids over its rims (exact where the rims are plane).
   double enclosed_volume(int tag) const;
 
   // Rate of mass-proportional damping (1/s): a force of -rate times momentum on free nodes.
@@ -81,22 +81,22 @@ public:
 
   // Explicit steps. drift() throws InvertedElement and leaves everything as it was before the call.
   void half_kick(double dt); // over dt/2, s
-  // `looked`: can_drift() has said that it can go this way, to round-off.
+  // `looked`: can_drift() has returned true for this drift, to round-off.
   void drift(double dt, bool looked = false);
-  bool can_drift(double dt) const; // without an element that would be inside out
-  // Shows the surface where a drift over dt would take it, and moves nothing else: for who steps the solid
-  // seldom and looks at its surface often.
+  bool can_drift(double dt) const; // false where an element would be inverted
+  // Moves the surface alone to its position after a drift over dt: for callers that step the solid rarely and
+  // read its surface often.
   void place_surface_ahead(double dt);
-  void update_forces(); // internal and pressure forces at the present place
+  void update_forces(); // internal and pressure forces at the current positions
   // s; from the largest eigenvalue of the assembled stiffness, load stiffness included, to 1 % and on the
-  // safe side (block_matrix.h). Costs as much as 30 steps: ask now and then. Springs of contacts come on
-  // top: see surface_mass().
+  // safe side (node_matrix.h). Costs as much as 30 steps: call it rarely. Contact springs are not included:
+  // see surface_mass().
   double stable_step() const;
 
   double kinetic_energy() const;  // J
   double internal_energy() const; // J, stored, as of the last update_forces
-  // Since the start (J). Pressure: the volume swept times the mean of the pressures of the last forces and of
-  // the next, as velocity Verlet has them.
+  // Since the start (J). Pressure work is the swept volume times the mean of the pressures of the last forces
+  // and of the next ones, as in velocity Verlet.
   double pressure_work() const { return pressure_work_; }
   double prescribed_work() const { return prescribed_work_; }
   double damping_work() const { return damping_work_; } // lost, positive
@@ -107,20 +107,20 @@ public:
   const std::vector<Vector3> &pressure_forces() const { return pressed_; }   // N
   const std::vector<double> &nodal_mass() const { return mass_; }            // kg
   Vector3 node_place(int node) const { return mesh_.nodes[index(node)] + displacement_[index(node)]; } // m
-  // Places all nodes and updates the forces; counts no work. Throws InvertedElement, then nothing has
+  // Sets all node positions and updates the forces; counts no work. Throws InvertedElement, then nothing has
   // changed.
   void set_displacement(const std::vector<Vector3> &displacement);
 
-  // Cauchy stress (Pa), tension positive. Node values are means over the cells around, by current volume.
+  // Cauchy stress (Pa), tension positive. Node values are means over the adjacent cells by current volume.
   std::vector<CellStress> cell_stresses() const;
   std::vector<Tensor> node_stresses() const;
-  // VTU (binary, zlib) of the grid where it is now. Points: displacement (m), stress (tensor), von_mises,
-  // pressure (minus the mean stress), contact_pressure, contact_shear (Pa), slip (m; one per surface vertex
-  // or empty for zero), J (volume ratio of the cell).
+  // VTU (binary, zlib) of the grid in its current position. Points: displacement (m), stress (tensor),
+  // von_mises, pressure (minus the mean stress), contact_pressure, contact_shear (Pa), slip (m; one per
+  // surface vertex or empty for zero), J (volume ratio of the cell).
   void write_vtu(std::ostream &stream, const std::vector<double> &slip = {}) const;
 
-  // Everything that changes in a run: motion, prescribed velocities, pressures, loads, works. The solid must
-  // have been given the same prescribed motions. Throws InvertedElement where an element would be inside out.
+  // All values that change in a run: motion, prescribed velocities, pressures, loads, works. The solid must
+  // have the same prescribed motions. Throws InvertedElement where an element would be inverted.
   void describe(Archive &archive);
 
 private:
@@ -128,7 +128,7 @@ private:
     std::vector<int> nodes;
     std::array<bool, 3> components;
     Vector3 velocity{}, spin{}, about{};
-    bool each = false; // the velocities are those that the nodes have
+    bool each = false; // each node keeps its own velocity
   };
   struct Worst {
     int cell = -1; // none
@@ -147,7 +147,7 @@ private:
   Vector3 node_load(std::size_t node) const {
     return vertex_of_[node] < 0 ? Vector3{} : load_[index(vertex_of_[node])];
   }
-  // The inverted cell with the lowest number if nodes were displaced so.
+  // The inverted cell with the lowest number for this displacement.
   Worst first_inverted(const std::vector<Vector3> &displacement) const;
   Vector3 cell_middle(int cell, const std::vector<Vector3> &displacement) const;
   std::string words_of_loads() const;
@@ -155,7 +155,7 @@ private:
   double pressure_work_to(const std::vector<Vector3> &displacement,
                           const std::vector<double> &pressures) const;
   void add_pressure_forces();
-  CellStiffness total_stiffness(std::size_t cell) const; // with that of the pressure on its faces
+  CellStiffness total_stiffness(std::size_t cell) const; // includes the pressure on its faces
   void lay_out_stiffness();
   void assemble(const std::vector<CellStiffness> &cells, NodeMatrix &rows) const;
   FaceCorners face_places(const BoundaryFace &face, const std::vector<Vector3> &displacement) const;
@@ -170,13 +170,13 @@ private:
   std::vector<std::size_t> first_face_; // of each cell in mesh_.faces, and the end
   double volume_ = 0;
   std::vector<double> mass_; // kg, of each node
-  NodeMatrix stiffness_;     // layout alone
+  NodeMatrix stiffness_;     // layout only
 
   std::vector<Vector3> displacement_, velocity_, next_;
   std::vector<unsigned char> prescribed_; // bits x, y, z of each node
   std::vector<PrescribedMotion> prescribed_motions_;
   std::vector<double> face_pressure_; // Pa, of each face in mesh_.faces
-  std::vector<double> acting_;        // Pa, the same in the forces that stand
+  std::vector<double> acting_;        // Pa, the same for the current forces
   double damping_ = 0;
 
   std::vector<CellForce> cell_force_;

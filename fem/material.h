@@ -13,7 +13,7 @@ struct Material {
   double poisson_ratio; // 1, between -1 and 1/2
 };
 
-// Throws std::invalid_argument "WHO: ..." where a constant is out of range or no number.
+// Throws std::invalid_argument "WHO: ..." where a constant is out of range or NaN.
 inline void check(const Material &material, const std::string &who) {
   require(material.density > 0, who + ": density must be positive");
   require(material.young_modulus > 0, who + ": Young's modulus must be positive");

@@ -19,13 +19,13 @@ struct Mode {
 
 typedef double Four __attribute__((vector_size(32)));
 
-// From three of a column and one that is not asked for.
+// Reads three entries of a column and one that is not used.
 inline __attribute__((always_inline)) void read(const double *from, Four &to) {
   std::memcpy(&to, from, sizeof to);
 }
 
-// A column of a block at once, four numbers of which the last is the next column's; behind the last column of
-// all there is none. The same sums as one by one.
+// Processes a column of a block at once: four numbers, of which the last belongs to the next column; the last
+// column of all has no next one. The same sums as one by one.
 PLATEN_WIDTHS void multiply_rows(const NodeMatrix &a, const Vector3 *x, std::size_t first, std::size_t last,
                                  Vector3 *y) {
   const std::size_t end = a.column.size();
@@ -62,7 +62,7 @@ void multiply(Mode &a, double s) {
 } // namespace
 
 void multiply(const NodeMatrix &a, const std::vector<Vector3> &x, std::vector<Vector3> &y) {
-  constexpr std::size_t rows_at_once = 64; // of a thread: more than a thousand blocks
+  constexpr std::size_t rows_at_once = 64; // per task: more than a thousand blocks
   y.resize(a.rows());
   for_each_block(
       a.rows(),

@@ -15,16 +15,16 @@ using NodeMatrix = BlockMatrix<3, double>; // columns ascend within a row
 // threads. x and y must not be the same vector.
 void multiply(const NodeMatrix &a, const std::vector<Vector3> &x, std::vector<Vector3> &y);
 
-// Sums over nodes, in their order.
+// Sum over nodes, in their order.
 double dot(const std::vector<Vector3> &a, const std::vector<Vector3> &b);
 
 // The highest angular frequency of a discrete solid, which limits explicit steps.
 //
-// Which components of a node are prescribed by the machine, one row per node.
+// Nonzero where the machine prescribes a component of a node, one row per node.
 using Fixed = std::vector<std::array<char, 3>>;
 
-// Largest eigenvalue of mass^-1 stiffness on the components that are not fixed (1/s^2), never below it but
-// for round-off, to 1 %, and not above `bound`. The start is the same each time.
+// Largest eigenvalue of mass^-1 stiffness on the free components (1/s^2): it limits explicit steps. To 1 %,
+// never too low but for round-off, and not above `bound`. The start vector is the same each time.
 double largest_eigenvalue(const NodeMatrix &stiffness, const std::vector<double> &mass, const Fixed &fixed,
                           double bound);
 

@@ -1,4 +1,4 @@
-// Pictures of bodies: their grids with fields, as VTU; the stresses that rubber shows.
+// VTU files of bodies: their grids with fields; the stresses of rubber for these files.
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_dgq.h>
@@ -41,7 +41,7 @@ void fill(const dealii::DoFHandler<3> &numbers, dealii::Vector<double> &field, c
   }
 }
 
-// Row and column of a tensor to its place among xx, yy, zz, yz, zx, xy.
+// From row and column of a tensor to its index among xx, yy, zz, yz, zx, xy.
 constexpr std::array<std::size_t, 9> voigt = {0, 5, 4, 5, 1, 3, 4, 3, 2};
 
 struct VertexField {
@@ -58,7 +58,7 @@ struct CellField {
 VertexField field(const char *name, const std::vector<double> &values) {
   return {name, 1, values};
 }
-// Of vectors (3) or tensors (9), one per vertex.
+// A field of vectors (3) or tensors (9), one per vertex.
 template <std::size_t parts, class Value>
 VertexField field(const char *name, const std::vector<Value> &of) {
   VertexField f{name, parts, {}};
@@ -68,13 +68,13 @@ VertexField field(const char *name, const std::vector<Value> &of) {
   return f;
 }
 
-// What contacts put on each node of a body, zero off its surface.
+// Contact tractions and slip at each node of a body, zero off its surface.
 struct ContactFields {
   std::vector<double> pressure, slip; // Pa, m
   std::vector<Vector3> shear;         // Pa
 };
 
-// `node`: of each vertex of the surface. `slip` is one value per vertex, or empty.
+// `node`: node of each vertex of the surface. `slip` is one value per vertex, or empty.
 ContactFields contact_fields(const std::string &who, const LoadedSurface &body, const std::vector<int> &node,
                              std::size_t nodes, const std::vector<double> &slip) {
   if (!slip.empty() && slip.size() != node.size())
@@ -96,7 +96,7 @@ DataComponentInterpretation kind_of(std::size_t parts) {
                       : dealii::DataComponentInterpretation::component_is_scalar;
 }
 
-// A field as deal.II has it.
+// A field in deal.II's numbering.
 struct Numbered {
   dealii::FESystem<3> element;
   dealii::DoFHandler<3> handler;
@@ -124,13 +124,12 @@ void write(std::ostream &stream, dealii::DataOut<3> &out, bool higher_order = fa
   out.write_vtu(stream);
 }
 
-// A grid of linear cells. The first of `fields` is the displacement (m): vertices
-// are drawn where it takes them.
+// A grid of linear cells. The first of `fields` is the displacement (m), which moves the vertices.
 void write_picture(std::ostream &stream, const Grid &grid, const std::vector<VertexField> &fields,
                    const std::vector<CellField> &cells = {}) {
   dealii::DataOut<3> out;
   out.attach_triangulation(*grid);
-  std::list<Numbered> numbered; // stay where they are
+  std::list<Numbered> numbered; // a list, so that addresses do not change
   for (const VertexField &field : fields) {
     const Numbered &n = numbered.emplace_back(*grid, field);
     out.add_data_vector(n.handler, n.values, std::vector<std::string>(field.parts, field.name),
@@ -157,7 +156,7 @@ void ElasticSolid::write_vtu(std::ostream &stream, const std::vector<double> &sl
 
   const auto degree = static_cast<unsigned int>(model_.degree);
   const dealii::FE_Q<3> smooth(degree);
-  // Nodes in the same order as the smooth element's, but each cell's own: stress jumps between materials.
+  // The nodes of each cell are separate, in the order of the smooth element: stress jumps between materials.
   const dealii::FESystem<3> vector(smooth, 3);
   dealii::DoFHandler<3> scalars(*model_.grid), vectors(*model_.grid), tensors(*model_.grid),
       jumps(*model_.grid);

@@ -42,7 +42,7 @@ void RigidBody::find_inertia(const VolumeMoments &m) {
 }
 
 Vector3 RigidBody::current_position(const Vector3 &reference) const {
-  // Without rotation the sum is kept plain: a flat face stays flat to the last bit.
+  // Without rotation only the displacement is added: a flat face stays flat to the last bit.
   if (is_identity(rotation_)) return reference + displacement_;
   return centre() + rotate(rotation_, reference - pivot_);
 }
@@ -62,7 +62,7 @@ void RigidBody::set_velocity(const Vector3 &velocity) {
   set_velocity(velocity, turns_ ? angular_velocity_ : Vector3{});
 }
 
-// A jump of the seat drags the body along by its mass; a turn that is asked for is added to that.
+// A velocity jump of the seat also acts on the body's inertia; a prescribed change of rotation is added.
 void RigidBody::set_velocity(const Vector3 &velocity, const Vector3 &angular_velocity) {
   if (velocity == velocity_ && angular_velocity == angular_velocity_) return;
   if (turns_) {
@@ -107,7 +107,7 @@ void RigidBody::turn(double dt) {
     rotation_ = normalised(normalised(rotation_quaternion(dt * angular_velocity_)) * rotation_);
 }
 
-// Turned by the angular velocity half-way, since the inertia turns with the body.
+// Rotates by the angular velocity at half the step, since the inertia rotates with the body.
 void RigidBody::drift_on_seat(double dt) {
   const std::vector<Vector3> before = surface_.vertices;
   const Quaternion start = rotation_;
@@ -154,8 +154,8 @@ EnergyBalance RigidBody::energy_balance() const {
   return balance;
 }
 
-// Springs of all vertices, taken as alike in all directions, against a turn about the seat. Dashpots act on
-// velocities of half a step before, as in ElasticSolid.
+// Springs of all vertices, with equal stiffness in all directions, against a rotation about the seat.
+// Dashpots act on velocities of half a step before, as in ElasticSolid.
 double RigidBody::stable_step(const VertexSprings &springs) const {
   if (!turns_) return std::numeric_limits<double>::infinity();
   Matrix3 stiffness{}, dashpots{};

@@ -1,7 +1,7 @@
-// A body that keeps its shape: it moves by six numbers, and its grid is there for its surface and for the
-// picture. The machine gives all six, or, where the body turns by itself on a spherical seat, the three of
-// the seat. Of one on a seat the energy balance holds what its turning stores about the seat; where that
-// moves, the machine does its work against the loads, and what a jump of its velocity does to the turning.
+// A rigid body: it has six degrees of freedom, and its grid gives the surface and the VTU file. The machine
+// prescribes all six, or only the translation of a spherical seat on which the body rotates freely. With a
+// seat, the energy balance contains the rotational energy about the seat; the machine's work contains its
+// work against the loads where the seat moves, and the change of that energy by jumps of the seat's velocity.
 #pragma once
 
 #include <iosfwd>
@@ -19,21 +19,21 @@ public:
   // face).
   RigidBody(Grid grid, const Material &material);
   // On a spherical seat without friction (m, its centre at the start), which the machine moves: the body
-  // turns about it under the moment of its loads.
+  // rotates about it under the moment of its loads.
   RigidBody(Grid grid, const Material &material, const Vector3 &seat);
 
   const Material &material() const { return material_; }
   double volume() const { return volume_; }                            // m^3
   double mass() const override { return material_.density * volume_; } // kg
 
-  // Motion. A rigid body moves by six numbers about its centre of mass, or about its seat; there angular
-  // velocities are its own, and the first form keeps them.
+  // Motion about the centre of mass, or about the seat. With a seat the angular velocity is free, and the
+  // first form keeps it.
   void set_velocity(const Vector3 &velocity) override;                         // m/s
   void set_velocity(const Vector3 &velocity, const Vector3 &angular_velocity); // m/s; rad/s, global axes
-  void kick(double dt) override; // the machine takes it; a seat turns
+  void kick(double dt) override; // rotates a body on a seat, otherwise no effect
   // Moves every vertex over dt (s): the centre along a straight line, the rotation by its exponential, so
-  // that the shape is kept to round-off for any dt. Loads stay as they are. On a seat surface velocities are
-  // then those of the path, whose product with dt is what each vertex went.
+  // that the shape is kept to round-off for any dt. Loads do not change. On a seat, surface velocities are
+  // then means over the path: displacement of each vertex divided by dt.
   void drift(double dt) override;
   const Vector3 &velocity() const override { return velocity_; }                 // m/s, of the centre
   const Vector3 &angular_velocity() const override { return angular_velocity_; } // rad/s
@@ -42,16 +42,15 @@ public:
   // Unit quaternion (w, x, y, z) from reference axes to current ones.
   const Quaternion &rotation() const override { return rotation_; }
   bool turns() const override { return turns_; }
-  // Bound on how far any vertex moves in a drift over dt (m).
+  // Upper bound of the displacement of any vertex in a drift over dt (m).
   double largest_move(double dt) const;
   double last_move() const override { return last_move_; } // m, that bound for the last drift
 
   double kinetic_energy() const; // J
-  // s; of the seat's turning; infinite without one.
+  // s, for the rotation on a seat; infinite without one.
   double stable_step(const VertexSprings &springs) const override;
-  EnergyBalance energy_balance() const override; // of the turning alone
+  EnergyBalance energy_balance() const override; // of the rotation only
 
-  // Motion, velocities and loads.
   void describe(Archive &archive) override;
 
   void write_vtu(std::ostream &stream, const std::vector<double> &slip = {}) const override;
@@ -60,7 +59,7 @@ private:
   Vector3 current_position(const Vector3 &reference) const;
   void place_vertices();
   void find_inertia(const VolumeMoments &moments);
-  // Of the seat: what the body's turning about it stores (J), and its rate of turning by its momentum.
+  // With a seat: rotational energy about it (J), and angular velocity from the angular momentum.
   double turning_energy() const { return 0.5 * dot(angular_velocity_, spin_); }
   void find_angular_velocity();
   void turn(double dt);
@@ -78,7 +77,7 @@ private:
   Vector3 arm_{};                         // kg m, first moment about the seat, reference axes
 
   Vector3 displacement_{}, velocity_{}, angular_velocity_{};
-  Vector3 spin_{}; // kg m^2/s, angular momentum about the seat, as if that stood
+  Vector3 spin_{}; // kg m^2/s, angular momentum about a seat at rest
   Quaternion rotation_;
   double last_move_ = 0;
   double load_work_ = 0, clamp_work_ = 0; // J

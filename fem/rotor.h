@@ -1,4 +1,4 @@
-// Of bodies that turn as one about a point: their matrices of inertia and of turning springs.
+// Matrices of inertia and of rotational stiffness, for bodies that rotate rigidly about a point.
 #pragma once
 
 #include "base/vector3.h"
@@ -8,12 +8,12 @@ namespace platen::fem {
 Matrix3 inverse(const Matrix3 &a);
 Matrix3 operator*(const Matrix3 &a, const Matrix3 &b);
 
-// Adds what `weight` at the place r has about the origin: weight (r^2 1 - r r^T). A mass (kg) gives inertia
-// (kg m^2), a spring that is alike in all directions (N/m) the stiffness of a turn (N m/rad).
+// Adds weight (r^2 1 - r r^T), the moment of `weight` at r about the origin. A mass (kg) gives inertia (kg
+// m^2), a spring with the same stiffness in all directions (N/m) a rotational stiffness (N m/rad).
 void add_about_origin(Matrix3 &sum, double weight, const Vector3 &r);
 
-// Of the product of two symmetric matrices without negative eigenvalues, such as inertia^-1 stiffness
-// (1/s^2): its eigenvalues are real, roots of a cubic.
+// Largest eigenvalue of the product of two symmetric matrices without negative eigenvalues, such as
+// inertia^-1 stiffness (1/s^2): its eigenvalues are real, roots of a cubic.
 double largest_eigenvalue(const Matrix3 &product);
 
 } // namespace platen::fem

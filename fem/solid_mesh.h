@@ -1,4 +1,4 @@
-// A grid as plain arrays for loops over its cells: read off deal.II once, at the start.
+// A grid as plain arrays for loops over its cells, read from deal.II once, at the start.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace platen::fem {
 
 // Nodes are the vertices of the grid, with its numbers.
 struct SolidMesh {
-  std::vector<Vector3> nodes; // m, reference places
+  std::vector<Vector3> nodes; // m, reference positions
   std::vector<ReferenceCell> cells;
   std::vector<std::array<int, 8>> cell_nodes; // x fastest
   std::vector<double> node_volume;            // m^3, integral of each shape function

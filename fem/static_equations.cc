@@ -25,11 +25,11 @@ namespace platen::fem {
 namespace {
 
 constexpr double residual_share = 1e-12;
-// Up to here UMFPACK solves faster (bench/results/platen_solve.md): nodes of degree 1, whose rows have at
-// most 27 blocks, and of degree 2, whose fuller rows cost the gradients more than the factors.
+// Up to here UMFPACK is faster (bench/results/platen_solve.md): number of nodes of degree 1, whose rows have
+// at most 27 blocks, and of degree 2, whose fuller rows slow down the gradients more than the factors.
 constexpr std::size_t direct_nodes_linear = 5000, direct_nodes_quadratic = 10000, linear_blocks = 27;
 
-// MPI belongs to whoever starts it first; a program that never solves never does.
+// The code that initialises MPI also finalises it; a program without solves does not initialise it.
 void ensure_mpi() {
   struct Mpi {
     Mpi() {
@@ -53,7 +53,7 @@ Index row_of(std::size_t node, std::size_t k) {
   return static_cast<Index>(3 * node + k);
 }
 
-// Entries of the matrix with fixed rows and columns left out, and a diagonal entry of the same size for them.
+// Entries of the matrix without fixed rows and columns, which keep only their diagonal entry.
 template <class Add>
 void for_entries(const NodeMatrix &a, const Fixed &fixed, const Add &add) {
   for (std::size_t i = 0; i < a.rows(); ++i)
@@ -71,7 +71,7 @@ void for_entries(const NodeMatrix &a, const Fixed &fixed, const Add &add) {
     }
 }
 
-// One after the other over all unknowns: three translations, then rotations about the axes through the mean.
+// Mode by mode over all unknowns: three translations, then rotations about axes through the mean.
 std::vector<double> rigid_motions(const std::vector<Vector3> &nodes) {
   Vector3 middle{};
   for (const Vector3 &p : nodes)
@@ -91,8 +91,8 @@ std::vector<double> rigid_motions(const std::vector<Vector3> &nodes) {
   return modes;
 }
 
-// GCC and Clang give the template SparseMatrix::vmult different names, and so its reinit: a library that one
-// of them has compiled lacks what the other looks for.
+// GCC and Clang mangle the template SparseMatrix::vmult differently, and so its reinit: code of one compiler
+// does not link with a library of the other.
 struct Product {
   const dealii::TrilinosWrappers::SparseMatrix &matrix;
   void vmult(dealii::TrilinosWrappers::MPI::Vector &to,
@@ -111,7 +111,7 @@ struct StaticEquations::Parts {
   dealii::SparseDirectUMFPACK direct;
   dealii::TrilinosWrappers::SparseMatrix matrix;
   dealii::TrilinosWrappers::PreconditionAMG multigrid;
-  std::vector<double> modes; // ML keeps pointing at them
+  std::vector<double> modes; // ML keeps pointers to them
 
   void factorise(const NodeMatrix &a, const dealii::DynamicSparsityPattern &rows) {
     dealii::SparsityPattern pattern;

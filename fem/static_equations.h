@@ -1,4 +1,4 @@
-// Static equations of a solid: stiffness times displacement = load, some components given.
+// Static equations of a solid: stiffness times displacement = load, with some components prescribed.
 #pragma once
 
 #include <memory>
@@ -8,26 +8,26 @@
 
 namespace platen::fem {
 
-// automatic: by size, as bench/results/platen_solve.md found the faster over the solves of a run.
+// automatic: by size, the faster one over the solves of a run by bench/results/platen_solve.md.
 enum class LinearSolver {
   automatic,
   direct,   // UMFPACK, factorised once
-  multigrid // conjugate gradients with smoothed aggregation (Trilinos ML) that is told the rigid motions
+  multigrid // conjugate gradients with smoothed aggregation (Trilinos ML) that uses the rigid motions
 };
 
 class StaticEquations {
 public:
-  // Fixed components keep the values they are given in solve(). Throws std::invalid_argument where nothing is
-  // fixed. Sets MPI up where nobody has: Trilinos does not go without.
+  // Fixed components keep the values that solve() receives. Throws std::invalid_argument where nothing is
+  // fixed. Initialises MPI where nobody has, since Trilinos requires it.
   StaticEquations(const NodeMatrix &stiffness, const std::vector<Vector3> &nodes, Fixed fixed,
                   LinearSolver kind = LinearSolver::automatic);
   ~StaticEquations();
   StaticEquations(StaticEquations &&) noexcept;
   StaticEquations &operator=(StaticEquations &&) noexcept;
 
-  // Displacements (m) under nodal loads (N). Comes with the fixed components and, for multigrid, a guess of
-  // the others. Residual of the free components at most 1e-12 of the loads' (of what fixed motions bring,
-  // too). Throws std::runtime_error where the gradients do not get there.
+  // Displacements (m) under nodal loads (N). On entry `x` holds the fixed components and, for multigrid, a
+  // guess of the others. Residual of the free components at most 1e-12 of the loads (including those of
+  // prescribed motions). Throws std::runtime_error where the gradients do not reach that.
   void solve(const NodeMatrix &stiffness, const std::vector<Vector3> &load, std::vector<Vector3> &x) const;
 
   LinearSolver kind() const; // direct or multigrid

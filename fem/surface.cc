@@ -12,8 +12,7 @@ namespace platen::fem {
 
 namespace {
 
-// A face is called empty below this share of its squared diagonal; needles of aspect 1e-9 still have a
-// normal.
+// A face has no area below this fraction of its squared diagonal; needles of aspect 1e-9 still have a normal.
 constexpr double empty_face = 1e-12;
 
 Vector3 corner(const SurfaceMesh &surface, std::size_t face, std::size_t k) {
@@ -32,7 +31,7 @@ std::vector<std::map<int, Vector3>> tributary_areas(const SurfaceMesh &surface) 
   return areas;
 }
 
-// The side that the load presses on most squarely carries it.
+// The side whose normal is closest to the direction of the load carries it.
 LoadedSurface::Traction traction(const std::map<int, Vector3> &sides, const Vector3 &load) {
   LoadedSurface::Traction result;
   bool found = false;

@@ -1,5 +1,5 @@
 // The outer surface of a body as plain arrays, and loads on its vertices: all that the contact layer needs of
-// a body, whatever is inside.
+// a body.
 #pragma once
 
 #include <array>
@@ -19,30 +19,29 @@ struct SurfaceMesh {
   std::vector<Vector3> velocities;       // m/s, one per vertex
   std::vector<std::array<int, 4>> faces; // vertex indices
   std::vector<int> face_tags;            // boundary id of each face (0 unless the body gives another)
-  // The vertices are those of the start plus one displacement and have one velocity.
+  // The vertices are those of the start plus one common displacement, and have one velocity.
   bool only_shifted = false;
 };
 
-// Nodes of a body as its surface.
+// A surface whose vertices are nodes of a body.
 struct NodeSurface {
   SurfaceMesh surface;   // velocities zero
   std::vector<int> node; // of each vertex, ascending
 };
-// Of a surface whose vertices are all nodes of the body: those that a face has.
+// Reduces a surface whose vertices are all nodes of the body to the nodes of its faces.
 NodeSurface node_surface(const SurfaceMesh &all);
 
-// (i, j): normal displacement of corner i of a face per normal force on corner j (m/N); symmetric. With the
-// weights w that a force at a place gives the corners, that place gives way by w^T C w.
+// (i, j): normal displacement of corner i of a face per normal force on corner j (m/N); symmetric. A point
+// whose forces go to the corners with the weights w has the compliance w^T C w.
 using FaceCompliance = std::array<std::array<double, 4>, 4>;
 
 // Area times mean outward normal of a face (m^2): exact for the bilinear face, flat or warped.
 Vector3 face_area_vector(const SurfaceMesh &surface, std::size_t face);
 
-// The faces around each vertex, ascending; once also a triangle, written as a quad with one corner twice.
+// The faces around each vertex, ascending; a triangle, written as a quad with one corner twice, counts once.
 std::vector<std::vector<int>> faces_of_vertices(const SurfaceMesh &surface);
 
-// Faces without area (|area vector| below 1e-12 of their longest diagonal squared): no normal can be given to
-// them.
+// Faces without area (|area vector| below 1e-12 of their longest diagonal squared), which have no normal.
 std::vector<int> zero_area_faces(const SurfaceMesh &surface);
 
 class LoadedSurface {
@@ -57,7 +56,7 @@ public:
     is_loaded_[v] = 1;
     load_[v] = load_[v] + force;
   }
-  // A force at a place of a face, which goes to its corners by these weights.
+  // A force at a point of a face, distributed to its corners by these weights.
   void add_face_force(int face, const std::array<double, 4> &weights, const Vector3 &force) {
     const std::array<int, 4> &corners = surface_.faces[static_cast<std::size_t>(face)];
     for (std::size_t k = 0; k < 4; ++k)
@@ -69,9 +68,8 @@ public:
   Vector3 total_force() const;                                        // N
   Vector3 moment(const Vector3 &about) const;                         // N m
 
-  // Loads as tractions, one per surface vertex: the load over the area that belongs to the vertex on the side
-  // that it is pressed on (a vertex on the rim of a plate lies on two sides). Their sum over that area is the
-  // load.
+  // Loads as tractions, one per surface vertex: the load over the vertex's area on the side that it presses
+  // on (a vertex on the rim of a plate lies on two sides). Their sum over that area is the load.
   struct Traction {
     double pressure = 0; // Pa, positive when pressed
     Vector3 shear{};     // Pa, along the side
@@ -81,12 +79,11 @@ public:
 
 protected:
   LoadedSurface() = default;
-  // Takes the surface and starts without loads. Throws std::invalid_argument where a face has no area (naming
-  // it).
+  // Sets the surface, without loads. Throws std::invalid_argument where a face has no area (naming it).
   void set_surface(SurfaceMesh surface);
 
-  // Loads as part of a state, in the order of their first one. Throws StateError, having changed none, where
-  // a vertex is not there.
+  // Loads as part of a state, in the order of their first one. Throws StateError, without changes, where a
+  // vertex does not exist.
   void describe_loads(Archive &archive);
 
   SurfaceMesh surface_;

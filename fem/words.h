@@ -10,12 +10,12 @@
 
 namespace platen::fem {
 
-// One by one, and refused by name and line: "NAME:LINE: error: ..." as std::invalid_argument.
+// Reads words one by one; errors give name and line: "NAME:LINE: error: ..." as std::invalid_argument.
 class Words {
 public:
   static constexpr int most = std::numeric_limits<int>::max();
 
-  // Both outlive this.
+  // Both must outlive this object.
   Words(std::string_view text, const std::string &name) : rest_(text), name_(name) {}
 
   int line() const { return line_; } // of the word read last
@@ -26,7 +26,7 @@ public:
   void expect(const std::string &word);
   void skip_to(const std::string &word);
   int whole(const char *what, int low, int high = most);
-  void numbers(const char *what, int count); // finite ones, passed over
+  void numbers(const char *what, int count); // checks that they are finite and skips them
 
   static std::string quoted(std::string_view word);
 

@@ -49,11 +49,11 @@ struct ContactStep {
   double dashpot = 0;                        // fraction of critical
 };
 
-// Effects of a loop; each combination is a separate loop.
+// Effects of a loop; each combination is a separate loop. Dashpots are a column that may be null.
 struct ContactEffects {
   NormalContact normal = NormalContact::linear;
   TangentialContact tangential = TangentialContact::coulomb;
-  bool dashpots = false, rotation = true;
+  bool rotation = true;
   bool ledger = true; // sums of lost energies
 };
 

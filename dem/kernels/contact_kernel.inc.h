@@ -64,13 +64,12 @@ std::size_t rows_at_work(const ContactColumns &c, const ContactBlock &b, int *ro
 
 // Effects of a loop. `ledger`: sums of lost energies; testing for them at run time costs a loop without them
 // up to 15 % (bench/results/effects.md).
-template <class NormalLaw, TangentialContact tangential, bool with_dashpots, bool with_rotation,
-          bool with_ledger>
+template <class NormalLaw, TangentialContact tangential, bool with_rotation, bool with_ledger>
 struct With {
   using Law = NormalLaw;
   static constexpr bool friction = tangential != TangentialContact::none,
                         rolling = tangential == TangentialContact::coulomb_with_rolling,
-                        dashpots = with_dashpots, rotation = with_rotation, ledger = with_ledger;
+                        rotation = with_rotation, ledger = with_ledger;
 };
 
 PLATEN_INLINE Simd reduced_of(const Simd &a, const Simd &b) {
@@ -146,7 +145,7 @@ PLATEN_INLINE void tangential_force(const ContactColumns &c, const ContactStep &
   scatter(c.spring, t.row, t.count, f.spring);
   scatter(c.normal, t.row, t.count, t.n);
   t.force = t.force + f.spring;
-  if constexpr (Effects::dashpots) {
+  if (c.dashpot != nullptr) {
     // Spring and dashpot together also stay below the Coulomb limit; without normal force there is no drag.
     const Simd damping =
         Simd(2 * s.dashpot) * OfLanes::root(kt * reduced_of(gather(c.mass, t.i), gather(c.mass, t.j)));
@@ -216,7 +215,7 @@ PLATEN_INLINE Losses add_lanes(const ContactColumns &c, const ContactBlock &b, c
   Losses lost;
   const Triple<Simd> v = approach<Effects>(c, s, t);
   const Simd vn = dot(v, t.n), elastic = t.pressing;
-  if constexpr (Effects::dashpots) { // no attraction
+  if (c.dashpot != nullptr) { // no attraction
     const Simd held =
         elastic -
         Simd(2 * s.dashpot) * OfLanes::root(t.kn * reduced_of(gather(c.mass, t.i), gather(c.mass, t.j))) * vn;
@@ -228,7 +227,7 @@ PLATEN_INLINE Losses add_lanes(const ContactColumns &c, const ContactBlock &b, c
   Triple<Simd> moment = no_vector<Simd>();
   if constexpr (Effects::rolling) moment = rolling_moment<Effects>(c, s, t, lost);
   if constexpr (Effects::friction) tangential_force<Effects>(c, s, t, lost);
-  if constexpr (Effects::dashpots) {
+  if (c.dashpot != nullptr) {
     // From the mean of the forces at the two ends of the drift (leapfrog).
     if constexpr (Effects::ledger)
       lost.damping = Simd(0.5 * s.dt) * dot(t.drag + gather(c.dashpot, t.row), v);
@@ -252,7 +251,7 @@ PLATEN_INLINE void release(const ContactColumns &c, int k, double *lost) {
     c.spring[k] = Vector3{};
     c.sliding[k] = 0;
   }
-  if constexpr (Effects::dashpots) c.dashpot[k] = Vector3{};
+  if (c.dashpot != nullptr) c.dashpot[k] = Vector3{};
   if constexpr (Effects::rolling) {
     lost[1] = half_over(c.rolling[k], c.rolling_stiffness[k]);
     c.rolling[k] = Vector3{};
@@ -276,7 +275,7 @@ ContactLoss compute(const ContactColumns &c, const ContactBlock &b, const Contac
     for (int l = 0; Effects::ledger && l < t.count; ++l) {
       double *to = losses + 3 * at[l];
       to[0] = of.rolling.v[l], to[1] = of.softened.v[l], to[2] = of.sliding.v[l];
-      if constexpr (Effects::dashpots) lost.damping += of.damping.v[l];
+      lost.damping += of.damping.v[l];
     }
     t.count = 0;
   };
@@ -300,7 +299,7 @@ ContactLoss compute(const ContactColumns &c, const ContactBlock &b, const Contac
 template <class Law, TangentialContact tangential, bool... chosen>
 ContactLoop choose_loop(const bool *effects) {
   constexpr std::size_t made = sizeof...(chosen);
-  if constexpr (made < 3) {
+  if constexpr (made < 2) {
     return effects[made] ? choose_loop<Law, tangential, chosen..., true>(effects)
                          : choose_loop<Law, tangential, chosen..., false>(effects);
   } else {
@@ -313,7 +312,7 @@ ContactLoop choose_loop(const bool *effects) {
 }
 
 ContactLoop loop_of(const ContactEffects &e) {
-  const bool effects[3] = {e.dashpots, e.rotation, e.ledger};
+  const bool effects[2] = {e.rotation, e.ledger};
   return NormalContacts::with(e.normal, [&](auto of) {
     using Law = decltype(of);
     switch (e.tangential) {

@@ -31,9 +31,9 @@ constexpr std::size_t most_tiled_spheres = 100000000;
 // corrected. The same seed gives the same packing bit for bit on any number of threads. About 420 bytes a
 // sphere during generation, 32 afterwards.
 //
-// `at_rest`: residual force over mean contact force at which each stage of the last growth ends. Twice the
-// value for random positions takes a third of the iterations, for .04 contacts a sphere fewer; 3e-2 takes
-// half of these, for .1 fewer at a gap of 1e-3 R: for the largest specimens.
+// `at_rest`: residual force over mean contact force at which each stage of the last growth ends. The
+// default, 2.5 times that for random positions, takes a third of the iterations, for .04 contacts a sphere
+// fewer; 3e-2 takes half of these, for .1 fewer at a gap of 1e-3 R: for the largest specimens.
 //
 // Throws std::invalid_argument: shape not valid or a disc, radius not positive, spread outside [0, 1.9],
 // tile_spheres as periodic_close_packing() refuses, a shape of fewer than fewest_tiles or of more than

@@ -2,7 +2,7 @@
 //   W(F) = mu/2 (J^(-2/3) tr F'F - 3) + U(J),   U(J) = kappa/2 ((J^2 - 1)/2 - ln J),   J = det F
 // (Simo, Hughes: Computational Inelasticity, 1998, section 9.2). U grows without bound as J goes to 0 or
 // infinity; for small strains the law is Hooke's with shear modulus mu and bulk modulus kappa. The two parts
-// are told apart because the element takes J at its points for the first and its mean for the second.
+// are separate because the element takes J at its points for the first and its mean for the second.
 #pragma once
 
 #include <array>
@@ -36,11 +36,11 @@ inline double squared_norm(const Tensor &f) {
   return sum;
 }
 
-// Volume ratio at which an element counts as turned inside out. Zero is the limit of the law; this close to
-// it no rubber is, and the next step would cross it.
+// Volume ratio at which an element counts as inverted. Zero is the limit of the law; rubber never comes so
+// close to it, and the next step would cross it.
 constexpr double inverted_share = 0.01;
 
-// To be asked before the law is used: what is not larger than `inverted_share`, or no number, is inverted.
+// Call it before the law is used: a ratio that is not larger than `inverted_share`, or NaN, is inverted.
 inline bool is_inverted(double volume_ratio) {
   return !(volume_ratio > inverted_share);
 }
@@ -65,7 +65,7 @@ struct NeoHookean {
                        young_modulus / (3 * (1 - 2 * poisson_ratio)));
   }
 
-  // J^(-2/3) mu: what multiplies F in the stress of shape.
+  // J^(-2/3) mu: the factor of F in the shape stress.
   double shape_factor(double j) const {
     const double root = std::cbrt(j);
     return shear_modulus / (root * root);

@@ -255,8 +255,7 @@ TEST(bonds_cohesive, what_has_been_bent_too_far_turns_back_by_the_secant_and_on_
                      std::string("Integration/Instruction set = ") + set,
                      "Pair test/Displacement =", "Pair test/Turns = 0.8 um, -0.9 um, 0.85 um, 12 um"}));
         expect_by_hand(run);
-        measured::expect_below(51, "load_off_of_softening_moments", run.cohesive.largest_difference(),
-                               close);
+        measured::expect_below(51, "load_off_of_softening_moments", run.cohesive.largest_difference(), close);
         EXPECT_EQ(run.path.rows.back().moment, 0);
       }
 }

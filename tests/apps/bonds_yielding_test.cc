@@ -25,8 +25,8 @@ BondRun run_pair(Words overrides) {
 }
 
 void expect_by_hand(const BondRun &run, double close) {
-  EXPECT_LT(run.interface.largest_difference(), close);
-  const CohesiveRow &last = run.interface.rows.back();
+  EXPECT_LT(run.cohesive.largest_difference(), close);
+  const CohesiveRow &last = run.cohesive.rows.back();
   const CohesiveReading &m = last.measured;
   EXPECT_NEAR(m.dissipated, last.dissipated_by_hand, 10 * close * m.work);
   EXPECT_NEAR(m.work, m.stored + m.dissipated, 10 * close * m.work);
@@ -35,11 +35,11 @@ void expect_by_hand(const BondRun &run, double close) {
 TEST(bonds_yielding, closing_yields_unloads_and_comes_back_as_by_hand) {
   const BondRun run = run_pair({});
   expect_by_hand(run, 1e-8);
-  measured::expect_below(51, "load_off_in_compression", run.interface.largest_difference(), 1e-8);
+  measured::expect_below(51, "load_off_in_compression", run.cohesive.largest_difference(), 1e-8);
   // 160 MPa at 60 + 150 + 600 over 48000 MPa, then a slope of G_b/22 up to 50 um of 2 mm.
   const double stress = 160e6 + (0.025 - 810e6 / 48e9) * 48e9 / 22;
   EXPECT_NEAR(run.path.rows.back().force, -stress * area, 1e-8 * stress * area);
-  EXPECT_NEAR(run.interface.rows.back().measured.plastic_closing, 2e-3 * (0.025 - stress / 48e9), 1e-12);
+  EXPECT_NEAR(run.cohesive.rows.back().measured.plastic_closing, 2e-3 * (0.025 - stress / 48e9), 1e-12);
   EXPECT_EQ(run.broken_tension + run.broken_shear, 0);
 }
 
@@ -50,7 +50,7 @@ TEST(bonds_yielding, tension_is_brittle_at_its_strength) {
   EXPECT_EQ(run.path.rows.back().force, 0);
   EXPECT_EQ(run.broken_tension, 1);
   const double whole = 0.5 * 9e6 * area * 9e6 / 48e9 * 2e-3;
-  EXPECT_NEAR(run.interface.rows.back().measured.dissipated, whole, 1e-8 * whole);
+  EXPECT_NEAR(run.cohesive.rows.back().measured.dissipated, whole, 1e-8 * whole);
 }
 
 TEST(bonds_yielding, shear_under_pressure_falls_to_the_friction_of_grains) {
@@ -70,8 +70,8 @@ TEST(bonds_yielding, shear_under_pressure_falls_to_the_friction_of_grains) {
 TEST(bonds_yielding, tension_and_shear_at_once_break_by_the_first_of_both) {
   const BondRun run =
       run_pair({"Pair test/Path = combined", "Pair test/Slip ratio = 3", "Pair test/Displacement = 3 um"});
-  EXPECT_EQ(run.broken_tension, 1);                    // 9 MPa against 3 / 4 of it in shear
-  EXPECT_LT(run.interface.largest_difference(), 1e-3); // lines by hand are of small strains
+  EXPECT_EQ(run.broken_tension, 1);                   // 9 MPa against 3 / 4 of it in shear
+  EXPECT_LT(run.cohesive.largest_difference(), 1e-3); // lines by hand are of small strains
   EXPECT_EQ(run.path.rows.back().force, 0);
 }
 
@@ -83,7 +83,7 @@ TEST(bonds_yielding, bending_and_twisting_break_at_the_strength_of_the_skin) {
                   "Bond/Moment contribution = 0.5", "Pair test/Turns = 0.5 um, -1 um, 60 um"});
     expect_by_hand(run, 1e-7);
     measured::expect_below(51, twists ? "load_off_in_twisting" : "load_off_in_bending",
-                           run.interface.largest_difference(), 1e-7);
+                           run.cohesive.largest_difference(), 1e-7);
     const double inertia = .25 * area * 1e-6;
     EXPECT_NEAR(run.path.break_load, run.strength_by_hand, 3e-7 * run.strength_by_hand); // the row before
     const double by_hand = twists ? 36e6 * 2 * inertia / .5e-3 : 9e6 * inertia / .5e-3;

@@ -54,7 +54,7 @@ protected:
 };
 
 TEST_F(FlatFeet, are_the_closest_points_inside_flat_faces_and_nowhere_else) {
-  int closest = 0, flat = 0;
+  int found_inside = 0, flat = 0;
   for (int k = 0; k < count; ++k) {
     const Quad &q = quads[k];
     const Vector3 &c = centres[k];
@@ -64,14 +64,14 @@ TEST_F(FlatFeet, are_the_closest_points_inside_flat_faces_and_nowhere_else) {
     flat += faces[k].flat != 0 ? 1 : 0;
     ASSERT_EQ(found, best.feature == Feature::face && faces[k].flat != 0) << "face " << k;
     if (!found) continue;
-    ++closest;
+    ++found_inside;
     const Vector3 normal = bilinear_normal(q, 0.5, 0.5);
     ASSERT_NEAR(closest.u, best.u, 1e-12) << "face " << k;
     ASSERT_NEAR(closest.v, best.v, 1e-12) << "face " << k;
     ASSERT_NEAR(closest.distance, -dot(best.point, normal), 1e-14) << "face " << k;
     ASSERT_NEAR(norm(faces[k].normal - normal), 0, 1e-15) << "face " << k;
   }
-  EXPECT_GT(closest, 1000);
+  EXPECT_GT(found_inside, 1000);
   EXPECT_NEAR(flat, 0.9 * count, 0.01 * count); // round-off makes some planes uneven
 }
 
@@ -85,7 +85,7 @@ TEST_F(FlatFeet, have_the_bits_of_single_ones_in_packs) {
     corners.push_back({0.1 * static_cast<double>(k % 7), -0.2 * static_cast<double>(k % 3), 1});
     turned_round[centres.size() - 1 - k] = corners[k] + centres[k];
   }
-  int closest = 0, none = 0;
+  int found_inside = 0, none = 0;
   for (const dem::InstructionSet set : dem::instruction_sets_here()) {
     for (std::size_t first = 0, many = 1; first < faces.size(); first += many, many = many % 32 + 1) {
       many = std::min(many, faces.size() - first);
@@ -105,14 +105,14 @@ TEST_F(FlatFeet, have_the_bits_of_single_ones_in_packs) {
             faces[first + k], turned_round[static_cast<std::size_t>(at[k])] - corners[first + k], alone);
         ASSERT_EQ((found >> k & 1u) != 0, expected)
             << dem::name(set) << ", face " << first + k << ", " << many;
-        ++(expected ? closest : none);
+        ++(expected ? found_inside : none);
         if (!expected) continue;
         ASSERT_TRUE(same_bits({points.u[k], points.v[k], points.distance[k]}, alone))
             << dem::name(set) << ", face " << first + k;
       }
     }
   }
-  EXPECT_GT(closest, 1000);
+  EXPECT_GT(found_inside, 1000);
   EXPECT_GT(none, 1000);
 }
 

@@ -35,7 +35,7 @@ Quad about(const Quad &q, const Vector3 &centre) {
 TEST(moving_faces, the_point_found_is_the_closest_of_a_warped_face) {
   std::mt19937 engine(3);
   std::uniform_real_distribution<double> along(-0.3, 1.3), off(-0.2, 0.2);
-  int closest[2] = {}, inside[2] = {}; // on faces warped a little and much
+  int found[2] = {}, inside[2] = {}; // on faces warped a little and much
   for (int trial = 0; trial < 20000; ++trial) {
     const int much = trial % 2;
     const Quad q = strained_square(much ? 0.15 : 0.02, engine);
@@ -49,7 +49,7 @@ TEST(moving_faces, the_point_found_is_the_closest_of_a_warped_face) {
     if (best.feature == Feature::face) ++inside[much];
     FacePoint closest;
     if (!find_closest(face, centre, closest)) continue;
-    ++closest[much];
+    ++found[much];
     ASSERT_EQ(best.feature, Feature::face);
     ASSERT_NEAR(norm(closest.out), std::sqrt(best.distance_squared), 4e-15);
     ASSERT_NEAR(closest.u, best.u, 1e-11);
@@ -58,8 +58,8 @@ TEST(moving_faces, the_point_found_is_the_closest_of_a_warped_face) {
     ASSERT_NEAR(norm(closest.normal), 1, 1e-15);
   }
   EXPECT_GT(inside[0], 3000);
-  EXPECT_EQ(closest[0], inside[0]);
-  EXPECT_GT(closest[1], 0.85 * inside[1]); // the rest goes the general way
+  EXPECT_EQ(found[0], inside[0]);
+  EXPECT_GT(found[1], 0.85 * inside[1]); // the rest goes the general way
 }
 
 // Far off a face that is much warped there are several closest points: none is given there but the nearest.
