@@ -220,9 +220,9 @@ PLATEN_INLINE Losses add_lanes(const ContactColumns &c, const ContactBlock &b, c
         elastic -
         Simd(2 * s.dashpot) * OfLanes::root(t.kn * reduced_of(gather(c.mass, t.i), gather(c.mass, t.j))) * vn;
     t.pressing = OfLanes::choose(OfLanes::above(held, Simd(0.0)), held, Simd(0.0));
+    t.drag = scale(Simd(elastic - t.pressing), t.n);
   }
   t.force = scale(-t.pressing, t.n);
-  t.drag = scale(Simd(elastic - t.pressing), t.n);
   t.slip_velocity = v - scale(vn, t.n);
   Triple<Simd> moment = no_vector<Simd>();
   if constexpr (Effects::rolling) moment = rolling_moment<Effects>(c, s, t, lost);
