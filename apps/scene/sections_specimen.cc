@@ -102,7 +102,7 @@ void declare_effects(Parameters &parameters, Scene &scene) {
   section.entry("Rotation", scene.model.rotation,
                 "Grains turn; without it bonds and contacts carry no moments.");
   LawMembers(section, scene.bond.laws)("bond_moments");
-  LawMembers(section, scene.bond.laws)("cohesive_moments")
+  LawMembers(section, scene.bond.laws)("interface_moments")
       .only_if([](const Scene &s) { return s.model.rotation; }, "Effects/Rotation is off");
   section.entry("Gravity", scene.effects.gravity, "9.80665 m/s2 along -z.");
   section.entry("Energy ledger", scene.model.energy_ledger,

@@ -230,7 +230,7 @@ void ElastoDamagePlastic::Parameters::describe(Visitor &&v, Self &p) {
     Words<FailureLine>{{"uncoupled", FailureLine::uncoupled}, {"coupled", FailureLine::coupled}},
     "Coupled: tension takes from the shear strength, and shear from the tensile strength.");
   describe_moment_contribution(v, p);
-  v("cohesive_moments", p.moments,
+  v("interface_moments", p.moments,
     "Interfaces resist bending and twisting until they have failed (needs rotation).");
 }
 
