@@ -1,5 +1,5 @@
-// What a specimen may meet: platens, strips, a sleeve, a pressure on its skin, a wall. An experiment holds a
-// list of any number of them and knows no more of each than this.
+// A boundary of a specimen: platens, strips, a sleeve, a pressure on its skin, a wall. An experiment holds a
+// list of any number of boundaries and uses them only through this interface.
 #pragma once
 
 #include <iosfwd>
@@ -20,16 +20,15 @@
 
 namespace platen::coupling {
 
-// The run cannot go on: what, where, when and what to try. Texts name members of the settings in backquotes
-// (`loading.ramp`), which a program that reads them from a file replaces by its own names. Apps exit with
-// status 3.
+// The run cannot go on: cause, place, time and what to try. The text names members of the settings in
+// backquotes (`loading.ramp`), which a program that reads them from a file replaces by its own names. Apps
+// exit with status 3.
 class NumericsStopped : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
 };
 
-// The settings ask for something that cannot be run: what is wrong with which member. Apps exit with status
-// 2.
+// The settings describe an impossible run: the faulty member and the reason. Apps exit with status 2.
 class BadSetup : public std::runtime_error {
 public:
   BadSetup(std::string member, const std::string &reason)
@@ -41,18 +40,18 @@ private:
   std::string member_, reason_;
 };
 
-// What the machine asks of a boundary in a step.
+// What the machine prescribes for a boundary in a step.
 struct Command {
   Vector3 velocity{};  // m/s, of what the machine moves
   double pressure = 0; // Pa
 };
 
-// The step that is being made; the particles have drifted.
+// The current step; the particles have drifted.
 struct Step {
   double dt = 0;       // s
   double time = 0;     // s, of its end
   long number = 0;     // steps made before it
-  double farthest = 0; // m, bound on what any particle moved
+  double farthest = 0; // m, bound on the displacement of any particle
 };
 
 struct StepLimit {
@@ -60,7 +59,7 @@ struct StepLimit {
   std::string reason;
 };
 
-// A boundary that frames show.
+// A boundary that is written to frames.
 class Pictured {
 public:
   virtual std::string series() const = 0; // the time series of files that it belongs to, as "platens"
@@ -79,81 +78,81 @@ public:
   Boundary &operator=(const Boundary &) = delete;
   const std::string &name() const { return name_; }
 
-  // A step, in this order. Takes a command and moves what is its own over the step.
+  // The calls of a step, in this order. Takes a command and moves its own parts over the step.
   virtual void drift(const Step &step, const Command &command) = 0;
-  // Finds the contacts that are due; in how many parts they are. Throws std::runtime_error where a particle
-  // may have passed through it unseen.
+  // Finds the contacts that are due and returns the number of parts. Throws std::runtime_error where a
+  // particle may have passed through the boundary unseen.
   virtual std::size_t prepare(const dem::Particles &, const Step &) { return 0; }
-  // The forces of one part, in any order, on any thread and beside the bonds; writes nothing of others.
+  // Forces of one part, in any order, on any thread, in parallel with the bonds; writes only its own data.
   virtual void compute_part(const dem::Particles &, const Step &, std::size_t) {}
-  // Row of the first particle of a part: tells which thread has its particles at hand.
+  // Row of the first particle of a part: decides which thread computes it, by the particles in its cache.
   virtual int particle_of_part(std::size_t) const { return 0; }
-  // What the particles get, and what is its own of it.
+  // Adds the forces to the particles, and to the boundary itself.
   virtual void apply_forces(dem::Particles &particles, const Step &step) = 0;
-  // The end of its own step. Throws NumericsStopped where it cannot go on.
+  // The end of the step. Throws NumericsStopped where the boundary cannot go on.
   virtual void finish(const Step &) {}
-  // Of a boundary without an energy balance of its own, which a machine holds against the particles: their
-  // power on it (W) at the start and at the end of the drift, added up.
+  // For a boundary without its own energy balance that a machine moves or holds against the particles: their
+  // power on it (W) at the start plus that at the end of the drift.
   virtual double power_on_machine() const { return 0; }
   virtual bool is_finite() const { return true; }
   // Whether it may be carried to a start without inertia (Experiment::carry).
   virtual bool can_be_carried() const { return true; }
-  // Stands still from now on; loads stay.
+  // Stops the boundary; its loads stay.
   virtual void rest() {}
 
-  // Whether it goes with others, which have to drift before; and whether its drift is worth a thread of its
-  // own. Asked once.
+  // Whether it moves with other boundaries, which have to drift before it; and whether its drift takes long
+  // enough for a thread of its own. Called once.
   virtual bool follows_others() const { return false; }
   virtual bool drifts_long() const { return false; }
-  // Particles that it may push, ascending, and how often they were listed so far; null: any.
+  // Particles that it may push, ascending, and how often they have been listed; null: any particle.
   virtual const std::vector<int> *listed_particles() const { return nullptr; }
   virtual long lists_made() const { return 0; }
 
-  // Where a specimen is cut over ranks, of which each computes the boundaries, only some particles are known
-  // to all in each step: the rows that it reads, ascending; none: any. Whether it will go through all
-  // particles in this step, asked when boundaries have drifted.
+  // Where a specimen is divided over ranks, each rank computes all boundaries, but only some particles are
+  // known to all ranks in each step: the rows that the boundary reads, ascending; none: any. Whether it will
+  // read all particles in this step; called after boundaries have drifted.
   virtual std::optional<std::vector<int>> rows_read() const {
     const std::vector<int> *listed = listed_particles();
     return listed != nullptr ? std::optional(*listed) : std::nullopt;
   }
   virtual bool reads_all(const Step &) const { return false; }
-  // The contact work that ranks divide; null: every rank does all of it.
+  // The contact work that is divided over the ranks; null: every rank does all of it.
   virtual SharedContacts *shared_contacts() { return nullptr; }
 
-  // Springs of the particles near it, listed anew, for the stable step; fraction of critical damping of its
-  // dashpots; its own limit, once they are listed; the same as far as it is known without work.
+  // For the stable step: springs of the particles near it, from a rebuilt list; fraction of critical damping
+  // of its dashpots; its own limit, after add_springs; the limit that is known without computation.
   virtual void add_springs(const dem::Particles &, std::vector<dem::GroundSpring> &) {}
   virtual double dashpots() const { return 0; }
   virtual StepLimit limit(const dem::Particles &) const { return {}; }
   virtual double known_limit() const { return std::numeric_limits<double>::infinity(); } // s
-  // Whether a spring has grown stiffer than add_springs counted it.
+  // Whether a spring is now stiffer than add_springs assumed.
   virtual bool stiffened() const { return false; }
-  // Contacts listed, and closed, whose growth is a reason to choose the step anew.
+  // Numbers of listed and of closed contacts; when they grow, the step is chosen again.
   virtual std::size_t near() const { return 0; }
   virtual std::size_t closed() const { return 0; }
-  // Once, when the first time step (s) has been chosen: sets itself up for it.
+  // Called once, when the first time step (s) has been chosen: prepares the boundary for it.
   virtual void fit(const dem::Particles &, double /*time_step*/) {}
 
   virtual void add_energy(dem::EnergyLedger &) const {}
   virtual Vector3 force() const { return {}; }  // N, of the particles on it
-  virtual Vector3 inward() const { return {}; } // unit vector of the way that a platen presses; else zero
-  virtual double closure() const { return 0; }  // m, how far the face of a platen has moved inward
+  virtual Vector3 inward() const { return {}; } // unit direction in which a platen presses; else zero
+  virtual double closure() const { return 0; }  // m, displacement of the face of a platen inward
   double load() const { return dot(force(), -1.0 * inward()); } // N, with which a platen presses
-  virtual double pressure() const { return 0; }                 // Pa, mean, that acts on the lateral surface
-  // 1, of the lateral surface that a cell's pressure loads; NaN of what is no cell, or has none.
+  virtual double pressure() const { return 0; }                 // Pa, mean, on the lateral surface
+  // 1, fraction of the lateral surface that a cell's pressure loads; NaN where there is no cell or no value.
   virtual double confined_share() const { return std::numeric_limits<double>::quiet_NaN(); }
   virtual double speed() const { return 0; } // m/s, at which the machine moves it
   virtual ServoLoad servo_load(const dem::Particles &) const { return {}; }
   virtual std::size_t bytes() const { return 0; } // of rows and search lists
 
-  virtual const Pictured *pictured() const { return nullptr; } // null: it has no picture
+  virtual const Pictured *pictured() const { return nullptr; } // null: it is not written to frames
   virtual void describe(Archive &archive) = 0;
 
 private:
   std::string name_;
 };
 
-// One whose surface meets the particles by a contact layer.
+// A boundary whose surface touches the particles through a contact layer.
 class ContactBoundary : public Boundary, public Pictured {
 public:
   using Boundary::Boundary;
@@ -197,7 +196,7 @@ public:
   fem::LoadedSurface &surface() { return const_cast<fem::LoadedSurface &>(std::as_const(*this).surface()); }
 
 protected:
-  virtual double farthest(const Step &step) const = 0; // m, bound on what its surface moved
+  virtual double farthest(const Step &step) const = 0; // m, bound on the displacement of its surface
 };
 
 } // namespace platen::coupling

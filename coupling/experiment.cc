@@ -14,7 +14,7 @@
 namespace platen::coupling {
 namespace {
 
-// What touches nothing shows in no sum, so all are checked after this many steps: a thousandth of their cost.
+// Particles without contacts affect no sum, so all are checked after this many steps: 0.1 % of their cost.
 constexpr long steps_between_checks = 100;
 
 bool share_none(const Boundary &a, const Boundary &b) {
@@ -66,7 +66,7 @@ long Experiment::advance(long most) {
   return 0;
 }
 
-// All of a step but its end, which the next one makes in one pass with its own start.
+// All of a step except its end, which the next step does in one pass with its own start.
 void Experiment::make_step(bool first_of_call) {
   if (choice_is_due()) {
     if (!first_of_call) model.end_step(time_step_);
@@ -97,8 +97,8 @@ void Experiment::make_step(bool first_of_call) {
   check_energy();
 }
 
-// What boundaries do to particles is found while bonds are: its parts are small, for threads that are done
-// with theirs.
+// Forces of boundaries on particles are computed in parallel with the bonds: in small parts, for threads that
+// have finished theirs.
 void Experiment::compute_forces() {
   const Step step{time_step_, model.time, steps_, model.last_motion().fastest * time_step_};
   drift_boundaries(step);
@@ -126,8 +126,8 @@ void Experiment::drift_boundaries(const Step &step) {
     drift(b);
 }
 
-// Particles are sorted by height before all else, and threads share them out by rows: parts in the order of
-// their particles go to the threads that move these, whichever boundary they meet.
+// Particles are sorted by height first, and are divided over threads by rows: parts in the order of their
+// particles go to the threads that move these particles, for all boundaries.
 void Experiment::prepare_contacts(const Step &step) {
   dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
   parts_.clear();
@@ -145,9 +145,9 @@ void Experiment::prepare_contacts(const Step &step) {
   });
 }
 
-// At once where no particle feels two boundaries: then no sum depends on which comes first. Particles are
-// sorted by height before all else, so that two threads share them out as here: each platen meets what its
-// thread has at hand.
+// In parallel where no particle touches two boundaries: then no sum depends on their order. Particles are
+// sorted by height first, so that two threads divide them as here: each platen touches particles in its
+// thread's cache.
 void Experiment::apply_boundary_forces(const Step &step) {
   dem::StageClock::Lap lap(model.clock, dem::Stage::surfaces);
   group_boundaries();
@@ -168,8 +168,8 @@ void Experiment::group_boundaries() {
   }
 }
 
-// The machine holds a boundary without an energy balance against the particles: its work is minus theirs, by
-// the trapezoid over the drift.
+// A machine holds a boundary without an energy balance against the particles: its work is minus theirs, by
+// the trapezoid rule over the drift.
 void Experiment::finish_boundaries(const Step &step) {
   dem::StageClock::Lap lap(model.clock, dem::Stage::bodies);
   double power = 0; // W
@@ -180,8 +180,8 @@ void Experiment::finish_boundaries(const Step &step) {
   machine_work_ -= 0.5 * step.dt * power;
 }
 
-// One step so long that no speed in it counts: what dashpots take of it is their fraction of critical times a
-// period over this, and forces at its end, which balance, do nothing.
+// One step so long that no velocity matters in it: dashpots take their fraction of critical times a period
+// over this step, and forces at its end, which are in equilibrium, have no effect.
 void Experiment::carry(const std::vector<Vector3> &displacement, const std::vector<Vector3> &turn,
                        const std::vector<Vector3> &of_boundaries) {
   if (steps_ > 0) throw std::logic_error("an experiment is carried to its start before its first step");
@@ -198,7 +198,7 @@ void Experiment::carry(const std::vector<Vector3> &displacement, const std::vect
     commands_[b].velocity = (1 / pseudo_step) * of_boundaries.at(b);
   const ExactSum damped = model.works.damping;
   {
-    struct Back { // after forces that throw too
+    struct Back { // also when forces throw
       double &step, chosen;
       ~Back() { step = chosen; }
     } const back{time_step_, time_step_};
@@ -211,7 +211,7 @@ void Experiment::carry(const std::vector<Vector3> &displacement, const std::vect
     throw BadSetup("loading.start_strain", "breaks " + std::to_string(model.breaks) +
                                                " bonds at once, which a static solve does not follow. "
                                                "Allowed: less, before the first crack.");
-  model.works.damping = damped; // of the kick alone, which is taken back
+  model.works.damping = damped; // of the kick alone, which is reverted
   model.time = 0;
   std::fill(p.velocity.begin(), p.velocity.end(), Vector3{});
   if (p.has_rotation()) std::fill(p.angular_velocity->begin(), p.angular_velocity->end(), Vector3{});

@@ -1,5 +1,5 @@
-// What stops a run (numbers that are not finite, motion that could pass through a face, energy from nowhere),
-// and the time step: chosen at the start, and again where contacts have closed.
+// Conditions that stop a run (numbers that are not finite, motion that could pass through a face, energy from
+// the scheme), and the time step: chosen at the start, and again where contacts have closed.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,11 +13,11 @@ namespace platen::coupling {
 
 namespace {
 
-// What moves has its energy from outside, so twice of what came in says that the scheme makes energy. Above
-// the limit of the step it does so by a factor in each step, so that the margin costs no time.
+// Kinetic energy comes from outside, so twice the supplied energy shows that the scheme makes energy. Above
+// the limit of the step it grows by a factor in each step, so that the margin costs no time.
 constexpr double most_of_work_in_motion = 2;
 
-// The step is checked after this many steps, if contacts have grown by this share of the particles.
+// The step is checked after this many steps, if contacts have grown by this fraction of the particles.
 constexpr long steps_between_choices = 400;
 constexpr double growth_of_contacts = 0.02;
 
@@ -46,7 +46,7 @@ void Experiment::stop_not_finite() {
                         text_of(time()) + " s; try a smaller `time_step.safety` or `loading.rate`");
 }
 
-// A contact layer refuses a motion that could carry a particle through a face unseen.
+// A contact layer rejects a motion that could carry a particle through a face undetected.
 void Experiment::stop_unseen(const std::string &reason) {
   gather();
   const auto slower = [](const Vector3 &a, const Vector3 &b) { return norm(a) < norm(b); };
@@ -61,13 +61,13 @@ void Experiment::stop_unseen(const std::string &reason) {
   throw NumericsStopped(text);
 }
 
-// A bound from below costs a comparison in a step, for the sum is there. Only where it passes what was
-// allowed last time is it worth while to ask what came in since.
+// A lower bound costs one comparison per step, because the sum is available. Only where it exceeds the last
+// limit is the energy supplied since then computed.
 void Experiment::check_energy() {
   const double moving = half_lightest_ * model.last_motion().speed_squares;
   if (moving <= energy_allowed_ || !model.settings().energy_ledger) return;
   const double came_in = std::abs(work_from_outside()) + given_energy_;
-  // What goes along with the platens, and may be ahead of a balance that is closed to the step.
+  // Energy of motion with the platens, which may precede a balance that is updated once per step.
   double speed = program_->fastest();
   for (const auto &boundary : boundaries_)
     speed = std::max(speed, boundary->speed());
@@ -95,7 +95,7 @@ std::size_t Experiment::contacts_closed() const {
   return sum;
 }
 
-// Lists are made now, so that it is the same whether the run was stopped and resumed or not.
+// Lists are rebuilt now, so that the result is the same whether the run was stopped and resumed or not.
 dem::StableStep Experiment::limit_now(double sought_below) {
   std::vector<dem::GroundSpring> springs;
   double dashpots = 0;
@@ -114,10 +114,10 @@ dem::StableStep Experiment::limit_now(double sought_below) {
   return limit;
 }
 
-// The step never grows: bonds that break only soften, contacts that close may stiffen.
+// The step never grows: breaking bonds only soften, closing contacts may stiffen.
 void Experiment::choose_step(bool first) {
-  // The place is told only where this becomes the step, or an error; a hair above, for the quotient is
-  // rounded.
+  // The location is found only where this becomes the step, or an error; slightly above, because the quotient
+  // is rounded.
   const double sought_below = settings_.fixed_step > 0 ? settings_.fixed_step
                               : first                  ? std::numeric_limits<double>::infinity()
                                                        : time_step_ / settings_.safety * (1 + 1e-12);
@@ -146,7 +146,7 @@ void Experiment::choose_step(bool first) {
   }
 }
 
-// A boundary that knows its limit after each of its intervals may be stiffer than one step as contacts close.
+// A boundary with a known limit after each of its intervals may be stiffer than one step as contacts close.
 bool Experiment::choice_is_due() {
   if (steps_ == 0) return false;
   const bool stiffer = std::any_of(boundaries_.begin(), boundaries_.end(), [&](const auto &boundary) {

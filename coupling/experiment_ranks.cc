@@ -1,5 +1,5 @@
-// An experiment whose specimen is cut over ranks. Each has all boundaries and the program, and computes them
-// from the same numbers: what they read of the specimen is sent to all.
+// An experiment whose specimen is divided over ranks. Each rank has all boundaries and the program, and
+// computes them from the same numbers: the data of the specimen that they read are sent to all.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -36,7 +36,7 @@ void Experiment::begin_sharing() {
   share_rows_of_boundaries();
 }
 
-// What boundaries tell and keep of their rows.
+// Data of boundaries on their rows.
 void Experiment::gather_rows() {
   if (!model.is_cut()) return;
   for (SharedContacts *contacts : shared_) {
@@ -61,7 +61,7 @@ void Experiment::settle_state() {
   model.settle_state();
 }
 
-// Of all boundaries in one message: how many bytes each has, then these.
+// For all boundaries in one message: the number of bytes of each, then the bytes.
 void Experiment::send_loads() {
   if (model.exchange()->ranks() == 1) return;
   std::vector<char> bytes(shared_.size() * sizeof(std::uint64_t));

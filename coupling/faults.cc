@@ -67,7 +67,7 @@ private:
     refuse_if(l_.servo_gain > 0 && l_.servo_gain < 0.1, "loading.servo_gain",
               "is too slow to hold anything. Allowed: 0, or 0.1 ... 10.");
     if (!std::isnan(l_.rate) || !(l_.wave_transits > 0) || alone()) return;
-    // What breaks at a tenth of the strain, or oscillates, would be struck at a speed that suits compression.
+    // A speed for compression is too high for what breaks at a tenth of the strain, or oscillates.
     refuse_if(l_.tension || p_.span > 0, "loading.wave_transits",
               "sets no speed but of compression and uniaxial strain. Allowed: a `loading.rate`.");
     refuse_if(!bonded(), "loading.wave_transits",

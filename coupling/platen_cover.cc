@@ -10,24 +10,24 @@ namespace {
 
 using Point = std::array<double, 2>;
 
-// Points along each width of the end: the share of a rectangle is right to a part of its rim.
+// Points along each width of the end: the error of a rectangle's fraction is a part of its rim.
 constexpr int points_across = 512;
-// Faces count that are turned to the specimen by no more than 60 degrees.
+// Faces count whose normal is within 60 degrees of the direction to the specimen.
 constexpr double least_cosine = 0.5;
 
-// Twice the area of a, b, p, positive where they turn to the left.
+// Twice the area of a, b, p, positive for a left turn.
 double turn(const Point &a, const Point &b, const Point &p) {
   return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
 }
 
-// A face of the platen as its end sees it.
+// A face of the platen, projected on the end.
 struct Outline {
   std::array<Point, 4> corners;
   Point low, high;
 
   bool holds(const Point &p) const {
     if (p[0] < low[0] || p[0] > high[0] || p[1] < low[1] || p[1] > high[1]) return false;
-    bool left = true, right = true; // of all edges; outlines turn either way
+    bool left = true, right = true; // of all edges; outlines have either orientation
     for (std::size_t k = 0; k < 4; ++k) {
       const double side = turn(corners[k], corners[(k + 1) % 4], p);
       left = left && side >= 0;
@@ -77,7 +77,7 @@ public:
         width_{width_of_end(shape, (axis + 1) % 3), width_of_end(shape, (axis + 2) % 3)},
         low_{lowest(shape, (axis + 1) % 3), lowest(shape, (axis + 2) % 3)} {}
 
-  // Share of the end's points that lie in any of these outlines.
+  // Fraction of the end's points that lie in any of these outlines.
   double share_in(const std::vector<Outline> &outlines) const {
     std::vector<char> inside(static_cast<std::size_t>(points_across) * points_across, 0);
     for (const Outline &outline : outlines)
@@ -102,7 +102,7 @@ private:
   Point point(int i, int j) const {
     return {low_[0] + width_[0] * (i + 0.5) / points_across, low_[1] + width_[1] * (j + 0.5) / points_across};
   }
-  // Cells that a range may meet.
+  // Cells that a range may touch.
   int first(double x, std::size_t k) const {
     return static_cast<int>(
         std::clamp((x - low_[k]) / width_[k] * points_across - 1, 0.0, 1.0 * points_across));

@@ -10,10 +10,10 @@
 namespace platen::coupling {
 namespace {
 
-// Of a thickness: what sums of layers miss it by is round-off, and no layer.
+// Fraction of a thickness: a smaller rest of a sum of layers is round-off, not a layer.
 constexpr double round_off = 1e-9;
 
-// The member that says the layers of a side.
+// The member that gives the layers of a side.
 std::string owner(const PlatenSettings &p, Side side) {
   return std::string("platens.") + (p.side(side)->layers.empty() ? "elastic" : name_of(side)) + ".layers";
 }
@@ -80,7 +80,7 @@ std::vector<PlatenLayer> layers_of(const PlatenSettings &p, Side side) {
   return layers;
 }
 
-// A sheet of one element would not bulge at degree 1; what the machine holds need not.
+// A sheet of one element could not bulge at degree 1; for the machine's side this does not matter.
 std::vector<fem::Layer> elements_of_layers(const PlatenSettings &p, Side side, double half_width) {
   const std::vector<PlatenLayer> layers = layers_of(p, side);
   std::vector<fem::Layer> elements;

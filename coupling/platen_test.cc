@@ -1,4 +1,4 @@
-// A test between two platens at its start: platens against the specimen, what holds its sides, its program.
+// The setup of a test between two platens: platens against the specimen, lateral boundaries, program.
 #include "coupling/platen_test.h"
 
 #include <algorithm>
@@ -13,28 +13,27 @@
 namespace platen::coupling {
 namespace {
 
-// Within the tenth to tenfold that the servo is safe for: the stress follows within some hundred steps of a
-// hard specimen.
+// Within the range of a tenth to ten that is safe for the servo: the stress follows within some hundred steps
+// of a hard specimen.
 constexpr double servo_gain = 5;
 constexpr double thickness_over_height = 0.1; // of platens whose thickness is not given
-// A specimen is loaded within this many wave transits, a bar within this many of its own periods, where
-// nothing else is said.
+// Default ramp of the loading: of a specimen in wave transits, of a bar in its own periods.
 constexpr double transits_of_ramp = 10, periods_of_ramp = 2;
-// A cell's pressure rises over this many wave transits where nothing else is said.
+// Default ramp of a cell's pressure, in wave transits.
 constexpr double transits_of_cell = 60;
-// Of a specimen in contact the servo may be as quick as it can. Its time constant is then that of its
-// dashpot, ten impedances, over the specimen's stiffness: ten wave transits, more where ends are soft. What
-// it is told runs ahead by that, so that the stress on the platens keeps up with the pressure. A slower servo
+// For a specimen in contact the servo may be as fast as possible. Its time constant is then its dashpot, ten
+// impedances, over the specimen's stiffness: ten wave transits, more where ends are soft. Its target runs
+// ahead by that time, so that the stress on the platens follows the pressure without delay. A slower servo
 // gets as much more time.
 constexpr double gain_of_cell = 10, transits_ahead = 9;
-// Platens that lead stresses without a cell need not keep up with a pressure, but with a specimen that widens
-// as it fails: a dashpot of 2.5 impedances lets it push them off by a quarter as much. On a machine's spring
-// that would swing.
+// Platens that control stresses without a cell need not follow a pressure, but a specimen that expands as it
+// fails: a dashpot of 2.5 impedances reduces the stress error of this expansion to a quarter. On a machine's
+// spring that would oscillate.
 constexpr double gain_of_platens = 40;
 // The servo may move the platen this many times as fast as the specimen shortens under the rising pressure.
 constexpr double servo_reserve = 10;
-// Spheres bear on the sleeve with springs that the pressure presses in by about a twenty-fifth of a radius
-// (each bears the pressure on some 4 R^2), and not softer than this share of the mean bond.
+// The pressure compresses the springs between spheres and sleeve by about a twenty-fifth of a radius (each
+// carries the pressure on some 4 R^2); they are not softer than this fraction of the mean bond.
 constexpr double springs_of_pressure = 100, least_share_of_bond = 0.01;
 
 // A servo moves the top platen at some time.
@@ -76,7 +75,7 @@ PlatenTest::PlatenTest(const dem::Specimen &specimen, const PlatenTestSettings &
   section_ = dem::solid_section(specimen, bent() ? 0 : loaded_axis(*this));
   require_one_section();
   facts_ = facts_of(specimen, settings.model, model);
-  facts_.voigt_modulus /= section_share(); // per volume of what bears; its waves are as fast
+  facts_.voigt_modulus /= section_share(); // per volume of the load-bearing part; wave speeds are the same
   for (double &modulus : facts_.affine_moduli)
     modulus /= section_share();
   for (const Side side : all_sides)
@@ -146,7 +145,7 @@ std::optional<PlatenCover> PlatenTest::cover(Side side) const {
   return cover_of(shape(), platen(side)->surface().surface(), side, plane, 2 * facts_.mean_radius, edge);
 }
 
-// A mesh in another unit, or the mesh of another specimen.
+// Detects a mesh in another unit, or the mesh of another specimen.
 void PlatenTest::require_cover(Side side) const {
   constexpr double round_off = 1e-3, most_wide = 20; // of the specimen's width
   const std::optional<PlatenCover> found = cover(side);
@@ -230,7 +229,7 @@ void PlatenTest::add_lateral(double bond) {
 }
 
 // Penalty springs of the skin are in series with the specimen: stiff enough for the pressure, and no stiffer,
-// since with the light nodes of the sleeve they decide on its steps.
+// because with the light nodes of the sleeve they determine its steps.
 void PlatenTest::add_sleeve(const CellSettings &cell, double bond) {
   SleeveSettings settings = *cell.sleeve;
   settings.contact.particle_stiffness =
@@ -243,7 +242,7 @@ void PlatenTest::add_sleeve(const CellSettings &cell, double bond) {
   sleeve_ = &add(std::make_unique<Sleeve>(model.particles, shape(), *ends_, settings));
 }
 
-// Platens come first, by their order in Side; then what presses the lateral surface.
+// Platens come first, by their order in Side; then the lateral boundary.
 Sides PlatenTest::sides() const {
   Sides sides;
   std::size_t next = 2;
@@ -292,7 +291,7 @@ double PlatenTest::stiffness_of_specimen() const {
                                   : std::numeric_limits<double>::infinity();
 }
 
-// N s/m, what the machine's impedance adds to the dashpot of a servo that moves its crosshead.
+// N s/m, addition of the machine's impedance to the dashpot of a servo that moves its crosshead.
 double PlatenTest::dashpot_of_machine(const PlatensOfAxis &platens) const {
   if (machine() == nullptr || platens.axis != 2) return 0;
   const std::size_t count = platens.places.size();
@@ -313,7 +312,7 @@ double PlatenTest::lead_of_servo(const PlatensOfAxis &platens) const {
          dashpot_of_machine(platens) / (stiffness_of_specimen() * count);
 }
 
-// The grains' dashpot by the time constant that it has on a rigid machine.
+// The grains' dashpot follows from its time constant on a rigid machine.
 double PlatenTest::time_of_servo(const PlatensOfAxis &platens) const {
   const double lead = servo_slowness_ * transits_ahead * facts_.wave_transit,
                grains = lead > 0 ? lead * stiffness_of_specimen() : 0.0;

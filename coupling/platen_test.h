@@ -1,5 +1,4 @@
-// A specimen between two platens, one below and one above: the experiment that its settings describe, and
-// what is measured of it.
+// A specimen between two platens, one below and one above: the experiment of its settings, and its measures.
 #pragma once
 
 #include <array>
@@ -17,7 +16,7 @@
 
 namespace platen::coupling {
 
-// What is known of the specimen before it is loaded.
+// Quantities of the specimen that are known before loading.
 struct SpecimenFacts {
   double mean_radius = 0;                // m
   double packing_fraction = 0;           // 1
@@ -29,7 +28,7 @@ struct SpecimenFacts {
 SpecimenFacts facts_of(const dem::Specimen &specimen, const dem::ModelSettings &settings,
                        const dem::Model &model);
 
-// m, of the outermost sphere from the plane of an end or side of the shape; negative where it reaches out.
+// m, distance of the outermost sphere from the plane of an end or side; negative where it reaches out.
 double distance_to_plane(const dem::Specimen &specimen, Side side);
 
 class PlatenTest : public Experiment, public Measures {
@@ -40,32 +39,32 @@ public:
   PlatenTest(const dem::Specimen &specimen, const PlatenTestSettings &settings);
   void step() { advance(1); }
 
-  const PlatenTestSettings &settings() const { return settings_; } // as given, but for the rate by transits
+  const PlatenTestSettings &settings() const { return settings_; } // as given, but the rate by transits
   const SpecimenFacts &facts() const { return facts_; }
   const dem::SolidSection &section() const { return section_; } // across the loaded axis; of a bent bar, x
-  // What stresses along z are over, of the shape's section: 1, but with net_section where it is not filled.
+  // Fraction of the shape's section for stresses along z: 1, except with net_section where it is not filled.
   double section_share() const { return settings_.net_section && !section_.fills() ? section_.mean : 1; }
   double coordination_number() const;                          // bonds per particle times two
   double ramp() const { return ramp_; }                        // s, of the axial loading
   double cell_ramp() const { return cell_ramp_; }              // s; 0 without a cell
-  double axial_rate() const { return settings_.loading.rate; } // m/s, once the platens are at speed
+  double axial_rate() const { return settings_.loading.rate; } // m/s, after the ramp
 
   // Its boundaries; null where the test has none.
   Platen &top() { return *platens_[1]; }
   Platen &bottom() { return *platens_[0]; }
   const Platen &top() const { return *platens_[1]; }
   const Platen &bottom() const { return *platens_[0]; }
-  Sides sides() const;                         // their places
-  PlatensOfAxis platens_of(Side side) const;   // that one
-  PlatensOfAxis platens_along(int axis) const; // 0 x, 1 y, 2 z: those that there are
-  // What stages are made with: of a stress that is asked, its ramp (s) and how far ahead (s) the servo of
-  // such platens is told of it; a servo that leads platens along an axis up to `stress` (Pa) within `ramp`,
-  // or after platens that move (`follows`); that of the top platen's own stress; how the axial platens go
-  // faster while the specimen is elastic.
+  Sides sides() const;                         // indices of the boundaries
+  PlatensOfAxis platens_of(Side side) const;   // the platen of that side
+  PlatensOfAxis platens_along(int axis) const; // 0 x, 1 y, 2 z: the existing ones
+  // Parameters for stages: the ramp (s) of a prescribed stress, and the time (s) by which the servo of these
+  // platens receives it in advance; a servo for platens along an axis and up to `stress` (Pa) within `ramp`,
+  // with a velocity limit of at least `least` (m/s); the servo for the top platen's own stress; the faster
+  // rate of the axial platens while the specimen is elastic.
   double ramp_of_stress() const;
   double lead_of_servo(const PlatensOfAxis &platens) const;
-  double machine_compliance(const PlatensOfAxis &platens) const; // m/N, times its dashpot: ahead of that
-  double time_of_servo(const PlatensOfAxis &platens) const;      // s, both, estimated
+  double machine_compliance(const PlatensOfAxis &platens) const; // m/N, times its dashpot: additional lead
+  double time_of_servo(const PlatensOfAxis &platens) const;      // s, sum of both, estimated
   Servo::Parameters servo_for(double stress, int axis, double ramp, double least) const;
   Servo::Parameters servo_of_top() const;
   std::optional<RateControl::Parameters> rate_control() const;
@@ -77,24 +76,25 @@ public:
   const SkinPressure *skin() const { return skin_; }
   const LateralWall *wall() const { return wall_; }
   bool cell() const { return settings_.loading.cell.has_value(); }
-  bool without_inertia() const { // platens that yield and are solved for
+  bool without_inertia() const { // elastic platens that are solved for statically
     return settings_.platens.elastic && settings_.platens.elastic->motion == fem::ElasticMotion::quasi_static;
   }
-  // What a platen covers of its end at the start; of a disc and of a bent bar, which strips press, nothing.
+  // What a platen covers of its end at the start; nothing for a disc and for a bent bar, which strips press.
   std::optional<PlatenCover> cover(Side side) const;
   bool bent() const { return settings_.platens.span > 0; } // a bar between one strip above and two below
 
-  // Whether the platens have taken over from a cell (true without one); between a turn and its strain.
+  // Whether the loading by the platens has begun after a cell's stage (true without a cell); whether the
+  // platens are between a reversal and its strain.
   bool axial_stage() const { return program().in_axial_stage(); }
   bool cycling() const { return program().is_cycling(); }
 
   // Laboratory signs: compression positive (tension tests: still compression positive).
-  double closure_strain() const override; // platen to platen, over the height; elastic: of the faces, on the
-                                          // mean over what the specimen covered at the start
-  double axial_closure() const { return program().axial_closure(); } // since the platens took over
-  // Pa, load of the particles over nominal_area(), whatever the platens' own inertia makes of it.
+  double closure_strain() const override; // platen to platen, over the height; elastic: of the faces, mean
+                                          // over the area that the specimen covered at the start
+  double axial_closure() const { return program().axial_closure(); } // since the start of the axial stage
+  // Pa, load of the particles over nominal_area(), independent of the platens' own inertia.
   double stress_top() const, stress_bottom() const;
-  // Pa over the specimen's face there, without platens NaN.
+  // Pa, over the specimen's face on that side; NaN without platens.
   double stress(Side side) const;
   double closure_strain(int axis) const override;
   double circumferential_strain() const override;
@@ -103,23 +103,23 @@ public:
   double confining_pressure() const;       // Pa, of a cell, as it acts on the lateral surface, or on the wall
   double confined_share() const;           // 1, of the lateral surface that a cell loads; NaN without one
   double sleeve_volumetric_strain() const; // within the sleeve, positive in compression; NaN without one
-  // Pa over nominal_area(): what the platens press on the sleeve's ends, which stress_top() and
-  // stress_bottom() leave out, beyond the pressure that stands in the rubber anyway. NaN without a sleeve.
+  // Pa over nominal_area(): pressure of the platens on the sleeve's ends, which stress_top() and
+  // stress_bottom() leave out, in excess of the pressure in the rubber. NaN without a sleeve.
   double sleeve_deviator() const;
-  // m^2: the cross-section, or the net one; of a bent bar what makes the load its nominal flexural stress.
+  // m^2: the cross-section, or the net one; of a bent bar that which gives the nominal flexural stress.
   double nominal_area() const {
     return bent() ? three_points().nominal_area() : section_share() * shape().cross_section();
   }
   dem::ThreePoints three_points() const { return {settings_.platens.span, shape().width_y, shape().height}; }
   double bending_period()
       const; // s, first period of the bar on its supports: slender, with the Voigt modulus
-  double midspan_moment() const; // N m, positive where it pulls the lower side; of a bent bar
-  dem::EndPlanes end_planes() const { return ends_->planes(); } // where the platens' faces are now
-  double platen_speed() const;                                  // m/s, closure speed now
-  double seconds_behind() const;   // s, of the platen without inertia that comes latest after its loads; or 0
+  double midspan_moment() const; // N m, of a bent bar; positive: tension on the lower side
+  dem::EndPlanes end_planes() const { return ends_->planes(); } // present planes of the platens' faces
+  double platen_speed() const;                                  // m/s, present closure speed
+  double seconds_behind() const;   // s, largest delay of a platen without inertia after its loads; or 0
   double unbalanced_ratio() const; // mean |net force| over mean |bond force|; NaN without bonds
 
-  // What its program sees.
+  // The measures that its program reads.
   double time() const override { return Experiment::time(); }
   double time_step() const override { return Experiment::time_step(); }
   double axial_stress() const override { return 0.5 * (stress_top() + stress_bottom()); }
@@ -146,7 +146,7 @@ private:
   void add_lateral(double bond);
   void add_sleeve(const CellSettings &cell, double bond);
   void choose_rates();
-  double gain_of_servo() const; // of those that are not the top platen's own
+  double gain_of_servo() const; // of servos other than the top platen's own
   double stiffness_of_specimen() const;
   double dashpot_of_machine(const PlatensOfAxis &platens) const;
 
@@ -158,9 +158,9 @@ private:
   Sleeve *sleeve_ = nullptr;
   const SkinPressure *skin_ = nullptr;
   const LateralWall *wall_ = nullptr;
-  mutable std::optional<dem::Circumference> circumference_; // made when it is asked for
+  mutable std::optional<dem::Circumference> circumference_; // made when it is needed
   double ramp_ = 0, cell_ramp_ = 0;                         // s
-  double servo_slowness_ = 1; // of the stages' servos, against a cell's quickest
+  double servo_slowness_ = 1; // of the stages' servos, relative to a cell's fastest
   dem::SolidSection section_;
 };
 

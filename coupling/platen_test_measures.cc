@@ -1,4 +1,4 @@
-// What is read off a test between two platens: strains, stresses, sizes.
+// The measures of a test between two platens: strains, stresses, sizes.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -67,7 +67,7 @@ std::vector<int> PlatenTest::rows_measured() const {
 }
 
 double PlatenTest::confining_pressure() const {
-  double sum = 0; // at most one of a test's boundaries presses its sides
+  double sum = 0; // at most one boundary presses the sides
   for (const auto &boundary : boundaries())
     sum += boundary->pressure();
   return sum;

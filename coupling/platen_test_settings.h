@@ -1,5 +1,5 @@
-// What a test between two platens is told. Each struct describes its members once (base/describe.h): unit,
-// range, words and meaning; messages name them by the paths that stand with `name`. NaN: not given.
+// The settings of a test between two platens. Each struct describes its members once (base/describe.h): unit,
+// range, words and meaning; messages name a member by its path, which begins with `name`. NaN: not given.
 #pragma once
 
 #include <functional>
@@ -21,29 +21,28 @@ namespace platen::coupling {
 
 using Ends = dem::EndPreparation;
 
-// A sheet of an elastic platen.
 struct PlatenLayer {
-  double thickness = 0;                                    // m; of a given grid it does not count
-  fem::Material material{not_given, not_given, not_given}; // which has to be given
+  double thickness = 0;                                    // m; not used with a given grid
+  fem::Material material{not_given, not_given, not_given}; // has to be given
 };
 
 struct PlatenSide : dem::SurfaceFriction {
-  fem::Grid grid = nullptr;             // null: a plate of the sizes below; else laid as fem/grids.h says
-  double thickness = 0;                 // m, of the plate; 0: that of all platens
-  std::vector<PlatenLayer> layers = {}; // where it yields, as ElasticPlatens::layers; empty: those
+  fem::Grid grid = nullptr;             // null: a plate of the sizes below; else placed as in fem/grids.h
+  double thickness = 0;                 // m, of the plate; 0: PlatenSettings::thickness
+  std::vector<PlatenLayer> layers = {}; // of an elastic platen, as ElasticPlatens::layers; empty: those
 };
 
-// Platens that yield: linear elastic, held by the machine at the end that is far from the specimen. Penalty
-// springs are then the particles' share alone: what the platen gives way is in its mesh.
+// Linear elastic platens, fixed to the machine at the end that is far from the specimen. Penalty springs then
+// represent the particles' compliance alone: the compliance of the platen is in its mesh.
 struct ElasticPlatens {
   int degree = 1;
   fem::ElasticMotion motion = fem::ElasticMotion::explicit_steps;
-  double damping = 0.05;    // fraction of critical, of the fastest mode; explicit
-  int steps_per_solve = 20; // quasi-static: of the particles
-  double pad_thickness = 0; // m, of a sheet on the specimen's side that is part of the thickness; 0: none
-  fem::Material pad{not_given, not_given, not_given}; // of it, or the second material of a given grid
-  // From the specimen outward: what they leave of the thickness is of the platens' material. Of a given grid:
-  // its physical volumes, in their order. Empty: platen and pad.
+  double damping = 0.05;    // fraction of critical damping of the fastest mode; explicit motion only
+  int steps_per_solve = 20; // quasi-static motion only: steps of the particles
+  double pad_thickness = 0; // m, of a sheet on the specimen's side, included in the thickness; 0: none
+  fem::Material pad{not_given, not_given, not_given}; // of the pad, or the second material of a given grid
+  // From the specimen outward; the rest of the thickness is of the platens' material. With a given grid: one
+  // layer for each physical volume, in their order. Empty: platen and pad.
   std::vector<PlatenLayer> layers;
 
   static constexpr const char *name = "platens.elastic";
@@ -51,7 +50,7 @@ struct ElasticPlatens {
   static void describe(Visitor &&v, Self &p);
 };
 
-// How spheres press on platens: by the law of grains without bonds, or by one of their own.
+// The contact law of spheres on platens: the law of grains without bonds, or a separate one.
 enum class PlatenContact { as_grains, linear, hertz };
 
 struct PlatenSettings {
@@ -59,46 +58,45 @@ struct PlatenSettings {
   std::optional<PlatenSide> left, right, front, back; // of a box; none: that side is free
   std::optional<ElasticPlatens> elastic;              // none: rigid
   MachineSettings machine;                            // behind the top platen
-  PlatenContact contact = PlatenContact::as_grains;   // what is glued is linear
-  double contact_modulus = 0; // Pa, Hertz: Young's modulus of the platens' side; 0: rigid ones do not yield,
-                              // others by the material of their face
-  dem::Stiffness stiffness;   // linear: of the mean bond, or absolute
+  PlatenContact contact = PlatenContact::as_grains;   // glued contacts are linear
+  double contact_modulus = 0;    // Pa, Hertz: Young's modulus of the platens' side; 0: rigid platens have no
+                                 // compliance, elastic ones use the material of their face
+  dem::Stiffness stiffness;      // linear: relative to the mean bond, or absolute
   double tangential_ratio = 0.8; // linear
   double damping = 0.2;          // fraction of critical
   double strip_width = 0;        // m, of strips that press a disc or bend a bar; 0: as wide as the platens
-  double span = not_given;       // m, between the middles of two lower strips that a bar along x is bent on
-  double overhang = 1.2;         // platen half-width over the specimen's
-  bool partial_cover = false;    // a given mesh need not reach over all of its end of the specimen
+  double span = not_given;       // m, between the middles of the two lower strips below a bar along x
+  double overhang = 1.2;         // half-width of the platen over that of the specimen
+  bool partial_cover = false;    // a given mesh need not cover all of its end of the specimen
   double thickness = 0;          // m
   int elements_across = 8;
   fem::Material material{7830, 200e9, 0.3};
   bool glued = false;
-  // The top platen, or the clamp of one that yields, turns freely about the middle of its face, which the
-  // machine moves.
+  // The top platen (an elastic one: its clamp) turns freely about the middle of its face, moved by the
+  // machine.
   bool spherical_seat = false;
-  // m, from the edges of a platen to the planes of its neighbours, which may close by that much; 0: a
-  // fiftieth of the specimen's length there.
+  // m, between the edges of a platen and the planes of its neighbours, which may close by that much; 0: a
+  // fiftieth of the specimen's length along that axis.
   double edge_gap = 0;
 
-  const PlatenSide *side(Side side) const; // null where none presses
+  const PlatenSide *side(Side side) const; // null where no platen presses
 
   static constexpr const char *name = "platens";
   template <class Visitor, class Self>
   static void describe(Visitor &&v, Self &p);
 };
 
-// A cell: pressure on the lateral surface and, while it rises and stands alone, the same stress on the
-// platens.
+// A cell: pressure on the lateral surface and, while it rises and acts alone, the same stress on the platens.
 struct CellSettings {
   double pressure = 0; // Pa
-  double ramp = 0; // s, from none to all of it; 0: sixty wave transits of the height, more for slow servos
-  double path = 0; // 1, what the pressure gains per deviator of the axial stage; -1/3: constant mean stress
-  // Without a sleeve the pressure acts on the spheres of the skin; with one on its outer face.
+  double ramp = 0; // s, from zero to all of it; 0: sixty wave transits of the height, more for slow servos
+  double path = 0; // 1, increase of the pressure per deviator of the axial stage; -1/3: constant mean stress
+  // Without a sleeve the pressure acts on the spheres of the skin; with a sleeve it acts on its outer face.
   dem::ConfinementArea area = dem::ConfinementArea::voronoi;
   std::optional<SleeveSettings> sleeve;
-  double sleeve_stiffness = 0;  // of its contacts, multiple of the mean bond's; 0: by the pressure
-  double sleeve_seat_depth = 1; // mean radii: spheres no deeper lie flush with its inner face
-  bool alone = false;           // hydrostatic: the test is over when the pressure has stood for its time
+  double sleeve_stiffness = 0;  // of its contacts, multiple of the mean bond's; 0: computed from the pressure
+  double sleeve_seat_depth = 1; // mean radii: spheres up to this depth are seated flush with its inner face
+  bool alone = false;           // hydrostatic: the test ends when the pressure has been constant for `hold`
 
   static constexpr const char *name = "loading.cell";
   template <class Visitor, class Self>
@@ -108,26 +106,26 @@ struct CellSettings {
 struct LoadingSettings {
   bool tension = false;
   double rate = not_given; // m/s, closure (opening) speed of the platens, each moving at half of it
-  // Sets the rate where it is not given: a wave crosses the height so often in a closure by 0.1 %.
+  // Sets the rate where it is not given: number of wave transits of the height during a closure of 0.1 %.
   double wave_transits = not_given;
-  double rate_multiplier = 1; // times that rate while the specimen is elastic (RateControl); needs bonds
+  double rate_multiplier = 1; // factor on that rate while the specimen is elastic (RateControl); needs bonds
   double ramp = 0;            // s; 0: ten wave transits of the height
-  double target_strain = not_given; // closure at which the test is over; not given: never
-  double start_strain = 0;          // that the run begins with, for what is expected of its length
-  bool servo = false; // the top platen holds a stress, at most `rate` fast, against a bottom platen at rest
-  double top_stress = 0; // Pa, pressing; reached smoothly over the ramp
-  double hold = 0;       // s, how long that is held after the ramp, or a cell's pressure stands alone
-  double servo_gain = 0; // 0.1 ... 10 as Servo has it; 0: 5 for top_stress, 10 in a cell, 40 else
+  double target_strain = not_given; // closure at which the test ends; not given: never
+  double start_strain = 0;          // at the start of the run, for the estimate of its length
+  bool servo = false; // the top platen holds a stress, no faster than `rate`, against a bottom platen at rest
+  double top_stress = 0; // Pa, compression positive; reached smoothly over the ramp
+  double hold = 0;       // s, duration of that stress after the ramp, or of a cell's pressure alone
+  double servo_gain = 0; // 0.1 ... 10 as in Servo; 0: 5 for top_stress, 10 in a cell or on a spring, 40 else
   std::optional<CellSettings> cell;
   bool wall = false;          // around the specimen, stiff and frictionless
   double wall_stiffness = 10; // multiple of the mean bond's
   double wall_layer = 1;      // mean radii: deeper spheres are not seated on the wall
-  // Closure strains (since the end of a cell's own stage) at which the platens turn round until the axial
-  // stress (less the cell's pressure) has fallen to this share of what it was; ascending.
+  // Closure strains (since the end of a cell's own stage) at which the platens reverse until the axial stress
+  // (less the cell's pressure) has fallen to this fraction of its value at the reversal; ascending.
   std::vector<double> unload_at;
   double unload_to = 0.1;
-  // In place of what the members above ask: one after the other. A cell's pressure is then what they ask
-  // most.
+  // These stages, one after the other, replace the members above. A cell's pressure is then their largest
+  // one.
   std::vector<StageSettings> stages;
 
   static constexpr const char *name = "loading";
@@ -150,9 +148,9 @@ struct PlatenTestSettings {
   PlatenSettings platens;
   LoadingSettings loading;
   TimeStepSettings time_step;
-  // Of one's own: boundaries after those that the members above make, and stages in their place, a cell's
-  // consolidation included: its pressure is then theirs to ask. They are made when platens and lateral
-  // boundaries are there.
+  // User-defined: boundaries are added after those of the members above; stages replace those of the members,
+  // a cell's consolidation included, so they have to command its pressure. They are made when platens and
+  // lateral boundaries exist.
   std::vector<MadeFor<Boundary>> boundaries;
   std::vector<MadeFor<Stage>> stages;
 };

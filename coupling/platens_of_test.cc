@@ -27,7 +27,7 @@ double platen_plane(const dem::Specimen &s, Side side, Ends ends) {
 
 namespace {
 
-// Elastic strips get elements about as wide as long: slivers would set the time step and the indentation.
+// Elastic strips get elements about as wide as long: slender ones need a small time step and sink in.
 std::array<int, 3> elements_of_plate(const PlatenSettings &p, double half_x, double half_y) {
   constexpr int least = 2;
   if (!p.elastic || !(p.strip_width > 0)) return {p.elements_across, p.elements_across, 2};
@@ -38,7 +38,7 @@ std::array<int, 3> elements_of_plate(const PlatenSettings &p, double half_x, dou
   return {along(half_x), along(half_y), 2};
 }
 
-// The strips between which a bar along x is bent: boxes along y, all alike, that make up one body.
+// The strips for a bar along x in bending: boxes along y, all alike, that form one body.
 std::vector<fem::BoxPlate> bending_strips(const dem::Specimen &s, const PlatenTestSettings &settings,
                                           bool top) {
   const PlatenSettings &p = settings.platens;
@@ -62,7 +62,7 @@ bool meets_a_sphere(const fem::BoxPlate &strip, const dem::Specimen &specimen, b
   return false;
 }
 
-// Where a platen begins and ends along an axis in its plane: beyond the specimen, or short of a neighbour.
+// Both ends of a platen along an axis in its plane: beyond the specimen, or short of a neighbour.
 std::array<double, 2> reach(const dem::Shape &shape, const PlatenSettings &p, Side low_side) {
   std::array<double, 2> ends = extent(shape, axis_of(low_side));
   const double all = ends[1] - ends[0], middle = 0.5 * (ends[0] + ends[1]);
@@ -75,7 +75,7 @@ std::array<double, 2> reach(const dem::Shape &shape, const PlatenSettings &p, Si
   return ends;
 }
 
-// A plate of a box, upright: its normal is the axis z of the grid.
+// The plate for a side of a box, upright: its normal is the axis z of the grid.
 fem::BoxPlate plate_of_box(const dem::Shape &shape, const PlatenSettings &p, Side side, double low) {
   constexpr std::array<Side, 3> low_sides{Side::left, Side::front, Side::bottom}; // along x, y, z
   const int axis = axis_of(side);
@@ -86,7 +86,7 @@ fem::BoxPlate plate_of_box(const dem::Shape &shape, const PlatenSettings &p, Sid
           {p.elements_across, p.elements_across, 2}};
 }
 
-// What the strip of a disc leaves of a plate.
+// Reduces a plate to the strip for a disc.
 void narrow_to_strip(fem::BoxPlate &plate, const PlatenSettings &p) {
   plate.low.x = -0.5 * p.strip_width, plate.high.x = 0.5 * p.strip_width;
   plate.elements = elements_of_plate(p, plate.high.x, plate.high.y);
@@ -126,7 +126,7 @@ fem::Grid platen_grid(const dem::Specimen &s, const PlatenTestSettings &settings
 double cells_of_platen(const dem::Shape &shape, const PlatenTestSettings &settings, Side side) {
   const PlatenSettings &p = settings.platens;
   if (p.side(side)->grid) return 0;
-  // As platen_grid has them, layers through the thickness for elements of a rigid plate.
+  // As in platen_grid, with layers through the thickness for elements of a rigid plate.
   const auto counted = [&](double in_plane, double half_width) {
     if (!p.elastic) return 2 * in_plane;
     double through = 0;
@@ -152,8 +152,7 @@ double cells_of_platen(const dem::Shape &shape, const PlatenTestSettings &settin
 
 namespace {
 
-// What the specimen covers of a platen; of a disc the band that its rim leaves by no more than the depth of
-// seats.
+// The part of a platen that the specimen covers; for a disc the band within the depth of seats from its rim.
 std::function<bool(const Vector3 &)> covered(const dem::Specimen &s, const PlatenTestSettings &settings,
                                              Side side) {
   const dem::Shape &shape = s.shape;
@@ -180,7 +179,7 @@ double platen_stiffness(const dem::Model &model, const PlatenTestSettings &setti
   return p.stiffness.value * mean_bond_stiffness(model);
 }
 
-// Of the specimen's side of a platen that yields; of a mesh the softest.
+// Of the specimen's side of an elastic platen; for a given mesh the softest material.
 fem::Material material_of_face(const PlatenSettings &p, Side side) {
   if (!p.side(side)->grid) return layers_of(p, side).front().material;
   const std::vector<fem::Material> all = materials_of(p, side);
@@ -189,7 +188,7 @@ fem::Material material_of_face(const PlatenSettings &p, Side side) {
   });
 }
 
-// Contacts of spheres on what is far softer than they are would grow as wide as the spheres.
+// Contacts of spheres on a far softer material would grow as wide as the spheres.
 constexpr double softest_face = 0.1; // of the grains' modulus
 
 dem::HertzOnPlane hertz_contact(const PlatenTestSettings &settings, Side side) {
@@ -254,7 +253,7 @@ std::unique_ptr<fem::ElasticSolid> elastic_solid(const dem::Specimen &s, const P
                                              options);
 }
 
-// The spring that a platen of this mass (kg) stands on; none where it does not.
+// The spring behind a platen of this mass (kg); none without a machine.
 std::optional<MachineSpring> spring_behind(const PlatenSettings &p, Side side, double own_mass) {
   MachineSettings machine = p.machine;
   if (side != Side::top || !machine.yields()) return std::nullopt;
@@ -318,7 +317,7 @@ void require_strips_to_meet(const dem::Specimen &specimen, const PlatenTestSetti
                        "leaves a strip without a sphere. Allowed: wider strips, or a deeper `end_layer`.");
 }
 
-// Without bonds the stiffness that a bond would have still measures the grains; N/m.
+// Without bonds the stiffness that a bond would have still represents the grains; N/m.
 double mean_bond_stiffness(const dem::Model &model) {
   double sum = 0;
   if (model.bonds && model.bonds->size() > 0) {

@@ -16,21 +16,20 @@ namespace {
 using Ask = SideAsk::Ask;
 using Reached = Until::Reached;
 
-// A stage whose stress does not settle is over after as much time again as ramp and hold have had.
+// A stage whose stress does not settle ends after twice the time of ramp and hold.
 constexpr double patience = 2;
-// A share or a path follows with this lag in wave transits: long enough for waves to pass, and for the
-// specimen's own answer, which would ring otherwise.
+// A fraction or a path follows with this lag in wave transits: long enough for waves to pass, and for the
+// specimen's own response, which would oscillate otherwise.
 constexpr double lag_of_share = 4;
-// A pressure along a path follows with this lag, more where it gains more than the deviator and so feeds back
-// on it: while platens gather speed within ten wave transits, it keeps to its path within a percent.
+// A pressure along a path follows with this lag, and with more where it rises more than the deviator and so
+// feeds back on it: while platens accelerate within ten wave transits, it stays on its path within a percent.
 constexpr double lag_of_path = 1.5;
-// And may move platens this many times as fast as any close at a rate.
+// Velocity limit for fractions, relative to the largest closure rate.
 constexpr double reserve_of_share = 10;
-// What is missing of a stress is asked again within this many of the servo's own times: it does not swing
-// then.
+// Integral time in units of the servo's own time: the stress does not oscillate then.
 constexpr double times_of_servo = 4;
 
-// A list of stages becomes a program: groups of sides become platens by their places.
+// Makes a program from a list of stages: groups of sides become platens by their indices.
 class ProgramMaker {
 public:
   ProgramMaker(const PlatenTest &test, const std::vector<StageSettings> &stages)
@@ -75,7 +74,7 @@ private:
     return all;
   }
 
-  // All sides are asked the same stress.
+  // Whether the same stress is prescribed on all sides.
   bool is_all_round(const StageSettings &stage) const {
     const std::vector<SideAsk> asks = asks_of(stage);
     std::array<bool, 3> axes{};
@@ -112,7 +111,7 @@ private:
   Servo::Parameters servo(const SideAsk &ask, const PlatensOfAxis &platens, double ramp) const {
     if (ask.servo) return *ask.servo;
     const bool follows = ask.ask == Ask::share || ask.ask == Ask::free;
-    double stress = 0, rate = test_.axial_rate(); // the most that is asked, Pa, m/s
+    double stress = 0, rate = test_.axial_rate(); // largest prescribed values, Pa, m/s
     for (const StageSettings &stage : settings_)
       for (const SideAsk &one : stage.asks) {
         if (one.ask == Ask::stress || one.ask == Ask::pressure) stress = std::max(stress, one.value);
@@ -188,7 +187,7 @@ private:
     return std::make_unique<CircumferentialTask>(p);
   }
 
-  // What is not asked holds.
+  // Sides without a prescribed value hold.
   void add_holds(const std::vector<SideAsk> &asks, std::vector<std::unique_ptr<Task>> &tasks) const {
     const auto asked = [&](Side side) {
       return std::any_of(asks.begin(), asks.end(), [&](const SideAsk &ask) {
@@ -249,7 +248,7 @@ private:
     return seconds > 0 || !asks_stress(stage) ? seconds : ramp + stage.hold;
   }
 
-  // What stages before have reached of a strain that counts from the start.
+  // The closure strain reached by the stages before, for a strain that counts from the start.
   double strain_before(const StageSettings &stage, const StageUntil &end) const {
     if (end.what != Reached::strain) return 0;
     double most = test_.settings().loading.start_strain;
@@ -266,8 +265,8 @@ private:
     return !(lateral_ && ask.side == SideGroup::lateral) && platens(ask.side).axis == axis_;
   }
 
-  // What a stage asks of sides that the test does not load is what it found, or something else. A share that
-  // is asked from the start grows with the stress that it follows, without a change of its own.
+  // Prescribed values on sides that the test does not load are the previous ones, or new ones. A fraction
+  // from the start grows with the stress that it follows, which is not a change of its own.
   void add_sides(const std::vector<SideAsk> &asks, LoadingStage::Parameters &of) {
     bool changed = false;
     for (const SideAsk &ask : asks) {
@@ -303,10 +302,10 @@ private:
   const PlatenTest &test_;
   const std::vector<StageSettings> &settings_;
   std::optional<std::size_t> lateral_;
-  int axis_;                                   // that the test loads
+  int axis_;                                   // the loaded axis
   double sense_;                               // 1 in compression, -1 in tension
-  std::array<SideAsk, side_count> of_sides_{}; // what was last asked of each that is not loaded
-  int setting_ = 0;                            // how often that has changed
+  std::array<SideAsk, side_count> of_sides_{}; // last prescribed on each side that is not loaded
+  int setting_ = 0;                            // number of changes of these
   std::vector<std::shared_ptr<Drive>> drives_;
 };
 

@@ -21,7 +21,7 @@ constexpr const char *name_of(Side side) {
   return names[static_cast<std::size_t>(side)];
 }
 
-// Of its normal: 0 x, 1 y, 2 z.
+// Axis of its normal: 0 x, 1 y, 2 z.
 constexpr int axis_of(Side side) {
   constexpr std::array<int, 3> axes{2, 0, 1};
   return axes[static_cast<std::size_t>(side) / 2];
@@ -46,7 +46,7 @@ inline Vector3 inward(Side side) {
   return n;
 }
 
-// A vector whose z is along the side's axis, in global axes: x, y, z turned into one another in a cycle.
+// Global components of a vector whose z is along the side's axis: x, y, z permuted in a cycle.
 inline Vector3 from_upright(Side side, const Vector3 &v) {
   const int axis = axis_of(side);
   Vector3 global{};
@@ -54,7 +54,7 @@ inline Vector3 from_upright(Side side, const Vector3 &v) {
     global[(axis + 1 + k) % 3] = v[k];
   return global;
 }
-// And back.
+// The inverse.
 inline Vector3 to_upright(Side side, const Vector3 &global) {
   const int axis = axis_of(side);
   return {global[(axis + 1) % 3], global[(axis + 2) % 3], global[axis]};
@@ -70,7 +70,7 @@ inline double length(const dem::Shape &shape, int axis) {
   return axis == 2 ? shape.height : (axis == 0 ? shape.width_x : shape.width_y);
 }
 
-// m^2, of a box across an axis.
+// m^2, face of a box normal to an axis.
 inline double face_area(const dem::Shape &shape, int axis) {
   return length(shape, (axis + 1) % 3) * length(shape, (axis + 2) % 3);
 }

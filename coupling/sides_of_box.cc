@@ -1,4 +1,4 @@
-// Platens on several sides of a box: what has such sides, and how platens keep clear of each other.
+// Platens on several sides of a box: shapes with such sides, and clearances between platens.
 #include <algorithm>
 #include <string>
 

@@ -176,7 +176,7 @@ private:
            "settled.");
   }
 
-  // The side's servo is led to a stress on the near side of the one that is waited for.
+  // The side's servo is controlled to a stress below the one that ends the stage.
   bool held_below(const StageUntil &end) const {
     return std::any_of(stage_.asks.begin(), stage_.asks.end(), [&](const SideAsk &ask) {
       return ask.side == end.of && ask.ask == Ask::stress && end.value > ask.value;

@@ -1,4 +1,4 @@
-// What loading stages are told: what each side is asked, how it starts, when it is over.
+// Settings of loading stages: what is prescribed on each side, how a stage starts, when it ends.
 #pragma once
 
 #include <limits>
@@ -23,27 +23,27 @@ std::string words_of(SideGroup group); // "lateral x"
 inline constexpr std::array<SideGroup, 10> all_side_groups{
     SideGroup::axial, SideGroup::lateral, SideGroup::lateral_x, SideGroup::lateral_y, SideGroup::bottom,
     SideGroup::top,   SideGroup::left,    SideGroup::right,     SideGroup::front,     SideGroup::back};
-// The sides that it is made of; of the lateral surface all four.
+// The sides of the group; for the lateral surface all four.
 std::vector<Side> sides_of(SideGroup group);
 
-// Of one side. Compression positive.
+// What is prescribed on one side. Compression positive.
 struct SideAsk {
   enum class Ask {
-    rate,            // m/s, closure of all its platens together, each at its part of it; negative: they part
+    rate,            // m/s, closure of all its platens together, shared by them; negative: they open
     stress,          // Pa, by a servo
-    share,           // of the stress of `of`
+    share,           // fraction of the stress of `of`
     pressure,        // Pa, of a cell
-    hold,            // platens stand; a pressure stays
+    hold,            // platens stand still; a pressure stays constant
     free,            // no stress
-    circumferential, // 1/s, at which the specimen widens: the axial platens close or part as that asks
+    circumferential, // 1/s, circumferential strain rate: the axial platens close or open to reach it
   };
   SideGroup side = SideGroup::axial;
   Ask ask = Ask::hold;
   double value = not_given;        // a rate that is not given is that of the loading
-  bool back = false;               // of a rate: platens part at it
-  SideGroup of = SideGroup::axial; // of a share
-  double path = 0;                 // of a pressure, 1: what it gains per deviator of the stage
-  // Of a servo, where they are not chosen: gain and limit; s, how far ahead it is told what will be asked.
+  bool back = false;               // of a rate: platens open at it
+  SideGroup of = SideGroup::axial; // of a fraction
+  double path = 0;                 // of a pressure, 1: increase per deviator of the stage
+  // Servo parameters, chosen by default: gain and limit; s, time by which it gets its target in advance.
   std::optional<Servo::Parameters> servo;
   double lead = not_given;
 };
@@ -57,25 +57,25 @@ struct StageUntil {
 struct StageSettings {
   std::string name;
   std::vector<SideAsk> asks;     // sides that are not named hold
-  double ramp = 0;               // s, from what is found to what is asked; 0: chosen
-  double hold = 0;               // s, how long it goes on after the ramp before it counts as settled
-  std::vector<StageUntil> until; // any of them; none: never
-  // s, at which it is over though it has not settled; not given: twice ramp and hold.
+  double ramp = 0;               // s, from the values at the start to the prescribed ones; 0: chosen
+  double hold = 0;               // s, duration after the ramp before the stage counts as settled
+  std::vector<StageUntil> until; // the first that is met; none: never
+  // s, at which the stage ends although it has not settled; not given: twice ramp and hold.
   double latest = not_given;
 };
 
-// Whether it is led or ended by the circumferential strain.
+// Whether the stage is controlled or ended by the circumferential strain.
 bool needs_circumferential_strain(const StageSettings &stage);
 
-// What stages can ask of a test.
+// What a test has for its stages.
 struct StageScope {
-  std::vector<Side> platens; // that there are
+  std::vector<Side> platens; // that the test has
   bool cell = false;         // presses the lateral surface
   bool rate = false;         // of the loading is given, or follows from wave transits
-  bool bonded = true;        // a wave's time over the specimen sets ramps
+  bool bonded = true;        // ramps follow from the wave transit over the specimen
 };
 
-// Throws BadSetup where stages cannot be: its member is "loading.stage_2.top" or "loading.stage_2.until".
+// Throws BadSetup for invalid stages: its member is "loading.stage_2.top" or "loading.stage_2.until".
 void require_stages(const std::vector<StageSettings> &stages, const StageScope &scope);
 
 } // namespace platen::coupling

@@ -1,4 +1,4 @@
-// What settings of a cell and of the axial loading mean, as stages.
+// The settings of a cell and of the axial loading as stages.
 #include "coupling/program_of_test.h"
 
 #include <cmath>
@@ -44,7 +44,7 @@ StageSettings held_stress(const PlatenTest &test) {
   return stage;
 }
 
-// One after the other where the platens turn round.
+// Several stages, one after the other, where the platens reverse.
 std::vector<StageSettings> axial_stages(const PlatenTest &test) {
   const LoadingSettings &loading = test.settings().loading;
   StageSettings stage;

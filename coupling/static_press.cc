@@ -10,7 +10,7 @@ namespace {
 
 constexpr int most_solves = 40; // the set of contacts settles within ten, or oscillates
 constexpr double rough = 1e-4;
-// After so many solves a sphere changes sides for a hundredth of the mean force only.
+// After this many solves a sphere changes its state only for more than this fraction of the mean force.
 constexpr int decided = 12;
 constexpr double hair = 0.01;
 
@@ -35,7 +35,7 @@ Contacts contacts_of(PlatenTest &test, double strain) {
   return c;
 }
 
-// Of the platen against the particle along the normal, N; the gap has to be closed first.
+// Force of the platen on the particle along the normal, N; the gap has to be closed first.
 double normal_force(const dem::Support &s, const dem::StaticState &state) {
   const std::size_t i = static_cast<std::size_t>(s.spring.particle);
   Vector3 u = state.displacement[i];
@@ -48,14 +48,14 @@ dem::StaticCase case_of(const Contacts &c) {
   for (std::size_t k = 0; k < c.near.size(); ++k) {
     if (!c.pressed[k]) continue;
     load.supports.push_back(c.near[k]);
-    // What closes the gap strains nothing.
+    // The closure of the gap causes no strain.
     load.supports.back().moved -= c.near[k].spring.gap * c.near[k].spring.normal;
   }
   return load;
 }
 
-// True where no sphere changed sides. Where sets come round again, what is within `band` of the mean force
-// stays as it is.
+// True where no sphere changed its state. A sphere changes only where its force exceeds `band` times the mean
+// force, so that repeated sets settle.
 bool update(Contacts &c, const dem::StaticState &state, double band) {
   std::vector<double> force(c.near.size());
   double sum = 0;
@@ -101,7 +101,7 @@ StaticPress press_statically(PlatenTest &test, double strain, const dem::StaticS
     throw NumericsStopped("a static solve needs linear springs on the platens (`platens.contact`)");
   Contacts contacts = contacts_of(test, strain);
   dem::EquilibriumSolver solver(test.model.particles, *test.model.bonds);
-  // While the set of contacts still changes a rough answer tells which.
+  // While the set of contacts still changes a rough solution is enough.
   dem::StaticSettings now = settings;
   now.tolerance = std::max(settings.tolerance, rough);
   dem::StaticState state;

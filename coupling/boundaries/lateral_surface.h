@@ -1,4 +1,4 @@
-// What acts on the lateral surface of a specimen where there is no sleeve.
+// Boundaries of the lateral surface of a specimen without a sleeve.
 #pragma once
 
 #include "coupling/boundaries/platen.h"
@@ -7,7 +7,7 @@
 
 namespace platen::coupling {
 
-// The pressure of a cell on the skin of the specimen, where the sleeve itself is left out.
+// The pressure of a cell on the skin of the specimen, without a model of the sleeve.
 class SkinPressure : public Boundary {
 public:
   // Throws std::invalid_argument where the skin has no area. `bonds` may be null.
@@ -19,7 +19,7 @@ public:
         skin_(particles, bonds, shape, ends.planes(), area) {}
 
   void drift(const Step &, const Command &command) override { asked_ = command.pressure; }
-  // Before bonds are computed: ranks know no more of them then.
+  // Before bonds are computed: afterwards ranks no longer have all of them.
   std::size_t prepare(const dem::Particles &particles, const Step &step) override {
     skin_.update(particles, bonds_, ends_.planes(), step.dt, step.farthest, reads_all(step));
     return 0;
@@ -40,7 +40,7 @@ public:
   const dem::Confinement &skin() const { return skin_; }
 
 private:
-  // Areas of the skin are found anew in every step that is a multiple of this.
+  // Areas of the skin are computed again in every step that is a multiple of this number.
   static constexpr long steps_between_skins = 400;
   const dem::Bonds *bonds_;
   EndPlatens ends_;
@@ -48,10 +48,10 @@ private:
   double asked_ = 0; // Pa
 };
 
-// A stiff frictionless wall around the specimen, at rest: it holds the lateral strain at zero.
+// A stiff frictionless wall around the specimen, at rest: it keeps the lateral strain at zero.
 class LateralWall : public Boundary {
 public:
-  // As dem::LateralWall; the pressure is told over the height between the platens.
+  // As dem::LateralWall; the pressure is the mean over the height between the platens.
   LateralWall(const dem::Particles &particles, const dem::Shape &shape, const EndPlatens &ends,
               double stiffness, double layer)
       : Boundary("wall"), ends_(ends), wall_(particles, shape, stiffness, layer) {}

@@ -4,8 +4,8 @@ namespace platen::coupling {
 namespace {
 
 // A servo moves the crosshead at (F_wanted - F) / c. On the mass M it is stable for any specimen while c is
-// above sqrt(k M) / (2 xi) (Routh's criterion, with a specimen that is infinitely stiff); at its highest gain
-// c is ten times the impedance, so that this keeps twice the distance.
+// above sqrt(k M) / (2 xi) (Routh's criterion, with an infinitely stiff specimen); at its highest gain c is
+// ten times the impedance, so that there is a factor of two.
 constexpr double impedances_of_servo = 10;
 
 } // namespace
@@ -47,7 +47,7 @@ double MachineSpring::finish_push(double velocity, double mass, double dt) {
   return mass * (velocity_ - velocity);
 }
 
-// The velocity is solved for with the dashpot's force at it.
+// The velocity is solved for with the dashpot's force at that velocity.
 void MachineSpring::end(double velocity, double load, double mass, double dt) {
   const double kick = 0.5 * dt / mass, spring = settings_.stiffness * compression_;
   velocity_ = (velocity + kick * (spring + dashpot_ * speed_ - load)) / (1 + kick * dashpot_);
@@ -60,7 +60,7 @@ double MachineSpring::servo_impedance() const {
   return std::sqrt(settings_.stiffness * settings_.mass) / (impedances_of_servo * settings_.damping);
 }
 
-// dt^2 K + 2 dt C = 4 M; its own dashpot does not count, being solved for.
+// dt^2 K + 2 dt C = 4 M; its own dashpot does not count, because it is solved for implicitly.
 double MachineSpring::stable_step(double springs, double dashpots) const {
   const double k = settings_.stiffness + springs;
   return (std::sqrt(dashpots * dashpots + 4 * settings_.mass * k) - dashpots) / k;

@@ -13,15 +13,14 @@ namespace platen::coupling {
 
 namespace {
 
-// A face is asked at the middles of this many parts along each side.
+// A face is evaluated at the middles of this many parts along each side.
 constexpr int parts = 8;
 
-// A contact between what moves on both sides: k (a - b)^2 <= k (1 + s) a^2 + k (1 + 1/s) b^2, so that each
-// side may be taken by itself.
+// A contact between two moving sides: k (a - b)^2 <= k (1 + s) a^2 + k (1 + 1/s) b^2, so that each side may
+// be treated by itself.
 constexpr double share_of_body = 0.25;
 
-// Whether a platen has met its neighbours is asked after so many steps: it moves by far less than a gap in
-// them.
+// Contact of a platen with its neighbours is checked after so many steps: it moves by far less.
 constexpr long steps_between_edges = 100;
 
 } // namespace
@@ -181,13 +180,13 @@ fem::VertexSprings Platen::shared_springs(const dem::Particles &particles) const
   return springs;
 }
 
-// The mean of what forces left of the middle and right of it say.
+// The mean of the moments from the forces left and right of the middle.
 double Platen::midspan_moment(double z) const {
   const fem::SurfaceMesh &mesh = body_->surface();
   double sum = 0;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Vector3 &load = body_->contact_load(static_cast<int>(v)), &x = mesh.vertices[v];
-    // Force on the bar: -load. A push up at |x| pulls the lower side, as does a pull outwards below z.
+    // Force on the bar: -load. Upward at |x|, or outward below z, it causes tension on the lower side.
     const double outwards = std::copysign(1.0, x[0]) * load[0];
     sum += -load[2] * std::abs(x[0]) - outwards * (z - x[2]);
   }
@@ -228,7 +227,7 @@ StepLimit DynamicPlaten::limit(const dem::Particles &particles) const {
   fem::VertexSprings springs = shared_springs(particles);
   if (!machine_) return {body_->stable_step(springs), reason_of_limit()};
   springs.clamp = machine_->settings().stiffness;
-  // Squares of frequencies add at most, of the body's own motion and of that on the spring; dashpots too.
+  // Squared frequencies add at most, of the body's own motion and of that on the spring; dashpots too.
   const double own = body_->stable_step(springs), whole = seconds_on_spring(springs);
   return {1 / (1 / own + 1 / whole), reason_of_limit() + ", on the spring of the machine"};
 }

@@ -17,14 +17,14 @@ namespace {
 
 // The elements' own limit costs as much as twenty of their steps and changes with their shape alone.
 constexpr int intervals_between_limits = 100;
-// Intervals of so many steps make a sleeve cheap. Springs grow with the pressure; so does then the mass that
-// is given to the sleeve, and what its inertia presses stays the same small share of the pressure.
+// Intervals of this many steps make a sleeve cheap. Springs grow with the pressure; so does the mass of the
+// sleeve, and its inertia force stays the same small fraction of the pressure.
 constexpr double steps_of_cheap_interval = 8;
 constexpr double bound_over_mean =
-    2.5; // of a row of the contacts' stiffness: one for the nearest, half for three
+    2.5; // row sum of the contacts' stiffness: all of the nearest sphere, half of three others
 
-// Faces of this many mean radii meet four spheres or so; with fewer the rubber is driven into the gaps
-// between them.
+// Faces of this many mean radii touch four spheres or so; on smaller ones the rubber enters gaps between
+// them.
 constexpr double radii_of_face = 5;
 constexpr int fewest_around = 8;
 
@@ -110,9 +110,9 @@ void Sleeve::build(const dem::Particles &particles) {
   ring_ = solid_->volume() / (high_ - low_);
 }
 
-// As the sleeve's own limit has it when all spheres press that lie flush with it, evenly.
+// As in the sleeve's own limit when all spheres flush with it press evenly.
 double Sleeve::cheap_mass(double time_step) const {
-  double mass = 0; // kg, of the face that meets the spheres
+  double mass = 0; // kg, of the face that touches the spheres
   for (std::size_t v = 0; v < solid_->surface().vertices.size(); ++v)
     mass += solid_->surface_mass(static_cast<int>(v));
   const SurfaceContact &p = contact_->parameters();
@@ -198,9 +198,9 @@ double Sleeve::confined_share() const {
   return loaded / all;
 }
 
-// Of the elements, and of the contacts that press now: the sum of a row of the contacts' stiffness at a
-// vertex is at most that of the spheres for which it is the nearest, and half of that of the others on its
-// faces (weights of a bilinear face sum to one).
+// Of the elements, and of the contacts that press now: the row sum of the contacts' stiffness at a vertex is
+// at most that of the spheres for which it is the nearest, plus half of that of the others on its faces
+// (weights of a bilinear face have the sum one).
 double Sleeve::find_limit() {
   if (std::fmod(intervals_, intervals_between_limits) == 0) own_limit_ = solid_->stable_step();
   const fem::SurfaceMesh &surface = solid_->surface();
@@ -234,7 +234,7 @@ void Sleeve::begin_interval(double dt, const RimMotion &rims) {
   made_ = 0;
   elapsed_ = 0;
   kick_into(planned_ * dt, dt, rims);
-  // A half-kick back undoes one, drag and works included. What a single step inverts is told by drift().
+  // A half-kick back reverts one, drag and work included. drift() reports an inversion in a single step.
   while (planned_ > 1 && !solid_->can_drift(planned_ * dt)) {
     solid_->half_kick(-planned_ * dt);
     planned_ /= 2;
@@ -243,7 +243,7 @@ void Sleeve::begin_interval(double dt, const RimMotion &rims) {
   }
 }
 
-// Platens have made the first step of the interval already.
+// Platens have already made the first step of the interval.
 void Sleeve::kick_into(double interval, double dt, const RimMotion &rims) {
   const auto follow = [&](int number, std::size_t node, const Vector3 &velocity, const Vector3 &place) {
     const Vector3 &rim = solid_->displacement()[node];
@@ -257,8 +257,8 @@ void Sleeve::kick_into(double interval, double dt, const RimMotion &rims) {
   solid_->half_kick(interval);
 }
 
-// Each node straight to where the platen will have it: on its own place of the face, or, where it slides, in
-// the plane of the face above or below its own x and y.
+// Moves each node straight to its future position on the platen: to its own point of the face, or, where it
+// slides, into the plane of the face above or below its own x and y.
 void Sleeve::turn_top_rim(double interval, double dt, const RimMotion &rims) {
   const double ahead = interval - dt;
   const Quaternion turned =
@@ -287,11 +287,11 @@ void Sleeve::move(double dt, const RimMotion &rims) {
   loads_due_ = false;
 }
 
-// The loads of the last step stand on the surface.
+// The loads of the last step are still on the surface.
 void Sleeve::take_loads() {
   share_read_ = std::numeric_limits<double>::quiet_NaN();
   if (made_ < planned_) return;
-  solid_->drift(elapsed_, planned_ > 1); // looked at when the interval began
+  solid_->drift(elapsed_, planned_ > 1); // checked when the interval began
   solid_->update_forces();
   solid_->half_kick(elapsed_);
   ++intervals_;
@@ -301,7 +301,7 @@ void Sleeve::take_loads() {
 void Sleeve::describe(Archive &archive) {
   archive.version(1);
   archive("planned_steps", planned_, "1",
-          at_least(0)); // more than the settings have, once an interval is cut
+          at_least(0)); // more than the settings give, after an interval was halved
   archive("steps_made", made_, "1", at_least(0));
   archive("elapsed", elapsed_, "s", at_least(0));
   archive("limit", limit_, "s", above(0));

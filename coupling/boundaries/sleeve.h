@@ -1,12 +1,12 @@
-// A rubber sleeve around a specimen: a tube of hyperelastic elements whose inner face meets the particles,
-// whose outer face bears the cell's pressure, and whose rims go with the platens; the upper one turns with a
-// top platen on a seat, of which it asks no moment: the machine turns the rim.
+// A rubber sleeve around a specimen: a tube of hyperelastic elements. Its inner face touches the particles,
+// its outer face carries the cell's pressure, and its rims move with the platens; the upper rim turns with a
+// top platen on a seat, but puts no moment on it: the machine turns the rim.
 //
-// Rubber is slow: its own stable step is tens of steps of the particles. So it is kicked once an interval of
+// The stable step of rubber is tens of steps of the particles. So the sleeve is kicked once in an interval of
 // several steps, by velocity Verlet with the interval as step. Within the interval its nodes move at constant
-// velocity, so that the surface that particles meet moves smoothly; at its end they feel what contacts,
-// elements and pressure are then. The mean of the contacts over the interval would be half an interval late,
-// and a spring that answers late feeds every oscillation.
+// velocity, so that the surface moves smoothly for the particles; at its end the nodes get the forces that
+// contacts, elements and pressure have then. The mean of the contacts over the interval would be half an
+// interval late, and a spring with a delay amplifies every oscillation.
 #pragma once
 
 #include <limits>
@@ -25,14 +25,14 @@ struct SleeveSettings {
   double density = 1100;         // kg/m^3
   // Around 0: faces five mean radii wide, to bridge the gaps between spheres; along 0: as long as wide.
   int elements_around = 0, elements_along = 0, elements_through = 1;
-  bool bonded_rims = true; // to the platens' rims; else they slide along them
-  // Of the sleeve alone, whose inertia hardly counts. 0: what makes it cheap, once the time step of the
-  // particles is known; 1 until then.
+  bool bonded_rims = true; // fixed to the platens' rims; else they slide along them
+  // Of the sleeve alone; its inertia has hardly any effect. 0: chosen for a cheap run, once the time step of
+  // the particles is known; 1 until then.
   double mass_scaling = 0;
-  double mass_damping = 1000; // 1/s, rate at which its velocities die away
+  double mass_damping = 1000; // 1/s, decay rate of its velocities
   double safety = 0.5;        // interval over its limit
   int most_steps = 200;       // of the particles in an interval
-  double seat_depth = 0;      // m: particles no deeper lie flush with its inner face; 0: none is seated
+  double seat_depth = 0;      // m: particles up to this depth are seated flush with its inner face; 0: none
   SurfaceContact contact = of_rubber(); // of its inner face with the particles
 
   static SurfaceContact of_rubber() {
@@ -69,13 +69,13 @@ void SleeveSettings::describe(Visitor &&v, Self &p) {
     "Factor on its mass, 1 or more; 0: such that it is stepped about once in eight steps.");
 }
 
-// Motion of the ends and pressure for the next interval: rims go where platens are, on the velocities that
-// these have now.
+// Motion of the ends and pressure for the next interval: rims move to the positions of the platens, which are
+// extrapolated with their present velocities.
 struct RimMotion {
   Vector3 bottom{}, top{};             // m/s
   double pressure = 0;                 // Pa, on the outer face
   Vector3 bottom_place{}, top_place{}; // m, displacements of the platens since the start
-  // Of a top platen that turns about the middle of its face: how it stands, and rad/s.
+  // Of a top platen that turns about the middle of its face: its orientation, and rad/s.
   Quaternion top_rotation{};
   Vector3 top_angular_velocity{};
 };
@@ -87,12 +87,12 @@ public:
   // cylinder.
   Sleeve(const dem::Particles &particles, const dem::Shape &shape, double low, double high,
          const SleeveSettings &settings);
-  // Around a specimen between platens, with which its rims go.
+  // Around a specimen between platens; its rims move with them.
   Sleeve(const dem::Particles &particles, const dem::Shape &shape, const EndPlatens &ends,
          const SleeveSettings &settings);
 
   void drift(const Step &step, const Command &command) override; // the command's pressure
-  // Its loads are added up where an interval ends, or are asked for.
+  // Its loads are summed at the end of an interval, or when they are needed.
   void apply_forces(dem::Particles &particles, const Step &step) override;
   void finish(const Step &step) override;
   bool follows_others() const override { return true; }
@@ -102,23 +102,23 @@ public:
   void fit(const dem::Particles &particles, double time_step) override;
   void add_energy(dem::EnergyLedger &energy) const override;
   double pressure() const override { return solid_->pressure(fem::mantle_tag); }
-  // Of its inner face, by area: the elements of it that bear on a sphere. The rubber hands the pressure to
-  // these. NaN without a pressure, for then nothing bears.
+  // Fraction of the area of its inner face: the elements that press on a sphere. The rubber transfers the
+  // pressure to these. NaN without a pressure, because no element presses then.
   double confined_share() const override;
   std::string series() const override { return "sleeve"; }
   void write_vtu(std::ostream &stream) const override;
   const ContactLayer &layer() const override { return *contact_; }
-  const fem::LoadedSurface &surface() const override { return *solid_; } // its loads may be due
+  const fem::LoadedSurface &surface() const override { return *solid_; } // its loads may not be summed yet
   using ContactBoundary::layer;
   using ContactBoundary::surface;
   static constexpr const char *reason_of_limit =
       "the finite elements of the sleeve with the springs of its contacts";
 
-  // Each step of the particles, after their drift over dt (s) and before forces: moves the surface. Begins an
-  // interval where the last one has ended.
+  // In each step of the particles, after their drift over dt (s) and before forces: moves the surface. Begins
+  // an interval where the last one has ended.
   void move(double dt, const RimMotion &rims);
-  // After the contact layer has given its forces: ends the interval where it is due. Throws
-  // fem::InvertedElement before an element is used that would be inside out.
+  // After the contact layer has computed its forces: ends the interval where it is due. Throws
+  // fem::InvertedElement before an inverted element is used.
   void take_loads();
 
   const fem::HyperelasticSolid &solid() const { return with_loads(); }
@@ -127,14 +127,13 @@ public:
   int steps_of_interval() const { return planned_; }
   int steps_of_next_interval(double dt) const;                                    // of dt (s) each
   double inner_volume() const { return solid_->enclosed_volume(fem::inner_tag); } // m^3, of the specimen
-  // Of the volume within it, positive in compression.
+  // Of the enclosed volume, positive in compression.
   double volumetric_strain() const { return 1 - inner_volume() / volume_at_start_; }
-  // N: what platens press on its ends (the mean of both) beyond the pressure that stands in the rubber
-  // anyway.
+  // N: force of the platens on its ends (the mean of both) in excess of the pressure in the rubber.
   double axial_force_beyond_pressure() const;
   double mass_scaling() const { return settings_.mass_scaling == 0 ? 1.0 : settings_.mass_scaling; }
   long cuts() const { return static_cast<long>(cuts_); } // halvings of intervals that would invert an element
-  // Work of pressure and platens on the sleeve since the start, and what it stores and has lost (J).
+  // Work of pressure and platens on the sleeve since the start; its stored and its dissipated energy (J).
   double work() const { return solid_->pressure_work() + solid_->prescribed_work(); }
   double stored() const { return solid_->kinetic_energy() + solid_->internal_energy(); }
   double lost() const { return solid_->damping_work(); }
@@ -161,18 +160,18 @@ private:
   std::unique_ptr<fem::HyperelasticSolid> solid_;
   std::unique_ptr<ContactLayer> contact_;
   std::optional<EndPlatens> ends_;
-  double volume_at_start_ = 0, ring_ = 0; // m^3 within it; m^2 of an end of it
+  double volume_at_start_ = 0, ring_ = 0; // m^3, enclosed; m^2, of one end
   int bottom_motion_ = 0, top_motion_ = 0;
-  std::size_t bottom_rim_ = 0, top_rim_ = 0; // a node of each
+  std::size_t bottom_rim_ = 0, top_rim_ = 0; // one node of each
   std::vector<int> top_rim_nodes_;
   std::vector<Vector3> top_rim_places_; // m, of these at the start, from the middle of the platen's face
-  mutable bool loads_due_ = false;      // of the last step, which the layer holds
+  mutable bool loads_due_ = false;      // loads of the last step are still in the layer
   int planned_ = 0, made_ = 0;          // steps of the interval
   double elapsed_ = 0;                  // s, of the interval
   double limit_ = 0;                    // s, of the next interval, by the contacts at the end of this one
-  double own_limit_ = 0;                // s, of the elements alone, asked for now and then
+  double own_limit_ = 0;                // s, of the elements alone, computed now and then
   double intervals_ = 0, cuts_ = 0;     // since the start
-  // Of a state that was just read, until a step finds which elements bear; else NaN.
+  // Of a state that was just read, until a step finds which elements press; else NaN.
   double share_read_ = std::numeric_limits<double>::quiet_NaN();
 };
 

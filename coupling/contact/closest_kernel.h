@@ -1,5 +1,5 @@
-// closest points on faces that move or are flat, in SIMD vectors, and the faces themselves. One source,
-// compiled once per instruction set (closest_kernel.inc.h), to the same last bit.
+// Closest points on faces that move or are flat, in SIMD vectors, and the setup of these faces. One source,
+// compiled once per instruction set (closest_kernel.inc.h), bitwise the same.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,9 @@
 
 namespace platen::coupling::kernels {
 
-// find_closest(*face[k], centre[at[k]], ...) for k < count <= SurfacePoints::most, into `points` but for the
-// face's number. Bit k of the result: whether there is one, as it says; if not, nothing is said. Of `centre`
-// one more is read.
+// find_closest(*face[k], centre[at[k]], ...) for k < count <= SurfacePoints::most, into `points` except for
+// the face's number. Bit k of the result is that of find_closest: if 0, point k is undefined. Reads one more
+// of `centre`.
 using FindClosestPoints = std::uint32_t (*)(const MovingFace *const *face, const Vector3 *centre,
                                             const int *at, std::size_t count, SurfacePoints &points);
 std::uint32_t find_closest_points_baseline(const MovingFace *const *, const Vector3 *, const int *,
@@ -27,7 +27,7 @@ inline FindClosestPoints find_closest_points(dem::InstructionSet set) {
                                          find_closest_points_avx512);
 }
 
-// The same of flat faces, with the first corner of each as it is now.
+// The same for flat faces, with the present first corner of each.
 using FindFlatClosestPoints = std::uint32_t (*)(const FlatFace *const *face, const Vector3 *const *corner,
                                                 const Vector3 *centre, const int *at, std::size_t count,
                                                 SurfacePoints &points);
@@ -42,8 +42,7 @@ inline FindFlatClosestPoints find_flat_closest_points(dem::InstructionSet set) {
                                              find_flat_closest_points_avx2, find_flat_closest_points_avx512);
 }
 
-// moving[number[k]] = moving_face() of the corners that these faces have (vertices, four of each face), k <
-// count.
+// moving[number[k]] = moving_face() of the corners of these faces (vertices, four of each face), k < count.
 using SetFaces = void (*)(const Vector3 *vertex, const int *corners, const int *number, std::size_t count,
                           MovingFace *moving);
 void set_faces_baseline(const Vector3 *, const int *, const int *, std::size_t, MovingFace *);

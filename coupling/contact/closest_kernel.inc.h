@@ -16,7 +16,7 @@ using dem::Triple;
 using dem::kernels::lanes;
 using dem::kernels::Simd;
 
-// Columns of the eight doubles that begin at a place of each face.
+// Columns of eight doubles that begin at one place of each face.
 struct Eight {
   Rotation<Simd> first, second;
 };
@@ -28,7 +28,7 @@ PLATEN_INLINE Eight eight_at(const Face *const *face, std::size_t place) {
   return {dem::kernels::first_columns(rows), dem::kernels::second_columns(rows)};
 }
 
-// Of a BilinearMap, in the order of its members; returns its last double and the seven that follow.
+// A BilinearMap, in the order of its members; returns its last double and the seven that follow.
 template <class Map, class Face>
 PLATEN_INLINE Eight read_map(const Face *const *face, Map &m) {
   const Eight a = eight_at(face, 0), b = eight_at(face, 8), c = eight_at(face, 16);
@@ -60,7 +60,7 @@ PLATEN_INLINE FlatMap<Simd> map_of(const FlatFace *const *face) {
   return m;
 }
 
-// Lanes of a SIMD vector from `first` on; the last once more where there are fewer.
+// Indices of the lanes of a SIMD vector from `first` on; the last one is repeated where there are fewer.
 struct Lanes {
   std::size_t of[lanes];
 
@@ -92,7 +92,7 @@ PLATEN_INLINE void write_weights(SurfacePoints &to, std::size_t first, const Sim
   write(&to.weights[3][first], one - ((w[0] + w[1]) + w[2]));
 }
 
-// As a surface search sets a point by its closest point.
+// Sets a point from its closest point as a surface search does.
 PLATEN_INLINE void write_point(SurfacePoints &to, std::size_t first, const ClosestOnFace<Simd> &closest,
                                const Triple<Simd> &centre) {
   write_weights(to, first, closest.u, closest.v);
@@ -113,7 +113,7 @@ PLATEN_INLINE void write_point(SurfacePoints &to, std::size_t first, const Close
   write(&to.distance_squared[first], closest.distance * closest.distance);
 }
 
-// Four members of eight faces that stand beside each other.
+// Four adjacent members of eight faces.
 PLATEN_INLINE void scatter(const Rotation<Simd> &four, std::size_t place, int count,
                            MovingFace *const *face) {
   dem::kernels::Row rows[lanes];

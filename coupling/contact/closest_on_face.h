@@ -1,12 +1,12 @@
-// The closest point of a centre on a face that moves or is flat, for one centre or for a SIMD vector of them:
-// one text, so that both give the same bits.
+// The closest point of a face that moves or is flat to a centre, for one centre or for a SIMD vector of them:
+// one source, so that both give the same bits.
 #pragma once
 
 #include "dem/laws/lanes.h"
 
 namespace platen::coupling {
 
-// Of MovingFace (faces.h), what the search for a closest point reads.
+// The part of MovingFace (faces.h) that the search for a closest point reads.
 template <class Real>
 struct FaceMap {
   dem::Triple<Real> e, f, t, linear, free, corner, normal;
@@ -21,10 +21,10 @@ struct ClosestOnFace {
 
 namespace closest_search {
 constexpr double rim =
-    1e-9; // share of the rim, in u and v, that is left to the general search, which knows edges
-// A start this far off the face does not come back onto it: the warp moves a closest point by less.
+    1e-9; // width of the rim, in u and v, that is left to the general search, which handles edges
+// A start this far outside the face does not return onto it: the warp moves a closest point by less.
 constexpr double far_off = 0.05;
-// A whole step of Newton's method leaves an error of the order of its square: less than 1e-12 of the face.
+// A full step of Newton's method leaves an error of the order of its square: less than 1e-12 of the face.
 constexpr double last_move = 1e-6;
 constexpr int most_steps = 8;
 } // namespace closest_search
@@ -36,7 +36,7 @@ PLATEN_INLINE auto inside(const Real &a, double by) {
 }
 } // namespace closest_search
 
-// Of FlatFace (faces.h), what its search reads.
+// The part of FlatFace (faces.h) that its search reads.
 template <class Real>
 struct FlatMap {
   dem::Triple<Real> e, f, t, linear, free, normal;
@@ -47,8 +47,8 @@ struct ClosestOnFlat {
   Real u, v, distance; // m, along the normal
 };
 
-// Where the result is true: the closest point of a centre, given relative to the first corner, on a flat
-// face, inside it and off its rim.
+// Where the result is true: the closest point of a flat face, inside it and off its rim, to a centre that is
+// given relative to the first corner.
 template <class How, class Real>
 PLATEN_INLINE auto search_flat_closest(const FlatMap<Real> &face, const dem::Triple<Real> &centre,
                                        ClosestOnFlat<Real> &closest) {

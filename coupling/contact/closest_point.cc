@@ -9,11 +9,12 @@ namespace platen::coupling {
 
 namespace {
 
-// A twist e = x0 - x1 + x2 - x3 below this share of the diagonals is round-off of a parallelogram.
+// A twist e = x0 - x1 + x2 - x3 below this fraction of the diagonals is round-off of a parallelogram.
 constexpr double parallel_twist = 1e-14;
-// A quad whose twist leaves its plane by more than this share of the diagonals may have several local minima.
+// A quad whose twist leaves its plane by more than this fraction of the diagonals may have several local
+// minima.
 constexpr double warped = 1e-9;
-// Below this share of (sum of squares)^2 the two tangents do not span a plane: only edges are searched
+// Below this fraction of (sum of squares)^2 the two tangents do not span a plane: only edges are searched
 // there.
 constexpr double no_area = 1e-28;
 
@@ -63,7 +64,7 @@ ClosestPoint on_boundary(const Quad &q) {
   return best;
 }
 
-// Where a flat quad is convex, the closest point of the perpendicular decides between face and rim.
+// Where a flat quad is convex, the projection onto its plane decides between face and rim.
 enum class Projection { inside, outside, unknown };
 
 Projection projection_on_flat_quad(const Quad &q, const Vector3 &across) {
@@ -92,9 +93,9 @@ bool project_parallelogram(const Quad &q, double &u, double &v) {
   return inside(u, v);
 }
 
-// Coordinates of the closest point on a flat convex quad, where they come out inside: in the plane,
-// (closest point - q0 - v f) and (e + v t) are parallel, a quadratic equation for v. A start for the descent,
-// which finishes in a step or two.
+// Coordinates of the closest point on a flat convex quad, if inside: in the plane, (closest point - q0 - v f)
+// and (e + v t) are parallel, a quadratic equation for v. A start for the descent, which finishes in a step
+// or two.
 void invert_flat_quad(const Quad &q, const Vector3 &twist, const Vector3 &across, double &u, double &v) {
   const Vector3 e = q[1] - q[0], f = q[3] - q[0], h = -q[0];
   const auto plane = [&](const Vector3 &a, const Vector3 &b) { return dot(cross(a, b), across); };
@@ -111,8 +112,7 @@ void invert_flat_quad(const Quad &q, const Vector3 &twist, const Vector3 &across
 }
 
 // Minimises 1/2 |x(u, v)|^2 inside the unit square from a start, by Newton steps on the exact Hessian where
-// it is positive definite and damped Gauss-Newton steps elsewhere. False where it leads to the rim for
-// good.
+// it is positive definite and damped Gauss-Newton steps elsewhere. False where the path ends at the rim.
 bool descend(const Quad &q, const Vector3 &twist, double &u, double &v) {
   Vector3 r = point_at(q, u, v);
   double f = 0.5 * norm_squared(r);
@@ -140,7 +140,7 @@ bool descend(const Quad &q, const Vector3 &twist, double &u, double &v) {
       du = -(gu * (bb + damping) - gv * ab) / d;
       dv = -(gv * (aa + damping) - gu * ab) / d;
     }
-    // Close to the minimum f no longer shows progress (it is flat there): the last steps are taken unchecked.
+    // Close to the minimum f no longer shows progress (it is flat there): the last steps are not checked.
     const bool last_steps = std::abs(gu * du + gv * dv) < 1e-9 * f;
     if (last_steps && newton) ++unchecked;
     double step = 1, nu = 0, nv = 0, nf = f;
@@ -153,7 +153,7 @@ bool descend(const Quad &q, const Vector3 &twist, double &u, double &v) {
     }
     const double moved = std::max(std::abs(nu - u), std::abs(nv - v));
     u = nu, v = nv, f = nf;
-    // A whole Newton step leaves an error of the order of its square.
+    // A full Newton step leaves an error of the order of its square.
     if (moved < (newton && step == 1 ? 1e-9 : 1e-15)) break;
   }
   return inside(u, v);
@@ -182,8 +182,8 @@ double preference(const ClosestPoint &point) {
 std::array<double, 4> bilinear_weights(double u, double v) {
   std::array<double, 4> w = {(1 - u) * (1 - v), u * (1 - v), u * v, 0};
   // For s in [0, 1], s + fl(1 - s) rounds to 1: the error of 1 - s is at most half a unit in the last place
-  // below 1, a tie that goes to the even 1. So the sum is exact, at the price of a w_3 of round-off size
-  // instead of zero.
+  // below 1, a tie that goes to the even 1. So the sum is exact, but w_3 may be of round-off size instead of
+  // zero.
   w[3] = 1 - ((w[0] + w[1]) + w[2]);
   return w;
 }
@@ -200,7 +200,7 @@ Vector3 bilinear_normal(const Quad &q, double u, double v) {
   const Vector3 a = derivative_u(q, v), b = derivative_v(q, u);
   Vector3 n = cross(a, b);
   const double scale = norm_squared(q[2] - q[0]) + norm_squared(q[3] - q[1]);
-  // At a collapsed edge the tangents vanish; the mean normal stands in.
+  // At a collapsed edge the tangents vanish; the mean normal is used instead.
   if (!(norm(n) > 1e-14 * scale)) n = cross(q[2] - q[0], q[3] - q[1]);
   const double length = norm(n);
   return length > 1e-14 * scale ? n / length : Vector3{};

@@ -1,6 +1,6 @@
 // Closest point of a bilinear quadrilateral, flat or warped, to the origin. The query point is the origin:
-// callers hand over corners relative to the particle's centre, so that no digit of the gap is lost far from
-// the origin of the scene.
+// callers give corners relative to the particle's centre, so that no digit of the gap is lost far from the
+// origin of the scene.
 #pragma once
 
 #include <array>
@@ -29,14 +29,13 @@ struct ClosestPoint {
 // or of a single point are legal. No NaN for finite corners.
 ClosestPoint closest_point(const Quad &corners);
 
-// Distance (m) from the mean plane of a quad, with the unit normal of that plane, within which all corners
-// have to lie for the query point to have a single closest point on it; negative where the quad is not
-// convex.
+// Largest distance (m) of the corners from the mean plane of a quad, with the unit normal of that plane, for
+// which the query point has a single closest point on it; negative where the quad is not convex.
 double single_closest_within(const Quad &corners, const Vector3 &normal);
 
 // Orders candidates: the smallest comes first. Near an edge, the closest point on one face and the edge point
-// of its neighbour are equally far to round-off, although their directions may differ by the root of it
-// (1e-8); so a face goes before an edge and an edge before a vertex when squared distances agree to 1e-14.
+// of its neighbour are at the same distance to round-off, although their directions may differ by the root of
+// it (1e-8); so a face goes before an edge and an edge before a vertex when squared distances agree to 1e-14.
 double preference(const ClosestPoint &point); // m^2
 
 // Weights at (u, v); their sum is exactly 1.

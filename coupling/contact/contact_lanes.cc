@@ -1,4 +1,4 @@
-// Rows of a contact layer in SIMD vectors: what the kernel is given.
+// Rows of a contact layer in SIMD vectors: the input of the kernel.
 #include "coupling/contact/contact_layer.h"
 
 namespace platen::coupling {

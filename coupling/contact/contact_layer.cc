@@ -16,11 +16,11 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// Overlap over radius from which the springs of Hertz are counted, as between grains; and how much deeper
-// than the deepest they are.
+// Smallest overlap over radius for which the springs of Hertz are computed, as between grains; and the factor
+// on the deepest overlap.
 constexpr double early_depth = 2e-3, reserve_of_depth = 2;
 
-// One minus the cosine of a normal that counts as upright.
+// One minus the cosine of a normal that still counts as upright.
 constexpr double aslant = 1e-9;
 
 void check(const SurfaceContact &p, bool rotation) {
@@ -49,14 +49,14 @@ std::size_t index(int row) {
   return static_cast<std::size_t>(row);
 }
 
-// m, between the middles of two opposite edges of a face, the shorter way.
+// m, the smaller distance between the middles of two opposite edges of a face.
 double narrowest(const fem::SurfaceMesh &surface, int face) {
   const Quad q = face_corners(surface, face, Vector3{});
   return 0.5 * std::sqrt(std::min(norm_squared((q[0] + q[3]) - (q[1] + q[2])),
                                   norm_squared((q[0] + q[1]) - (q[2] + q[3]))));
 }
 
-// One row a particle.
+// One row per particle.
 void require_ascending(const StateSource &state, const std::string &block) {
   const std::vector<int> particles = rows_of<int>(state, block);
   for (std::size_t k = 1; k < particles.size(); ++k)
@@ -76,8 +76,8 @@ ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSur
   require(
       parameters.face_compliance.empty() || parameters.face_compliance.size() == body.surface().faces.size(),
       "surface contact: a compliance of faces needs one entry per face");
-  // Inverted twice, as in series with a rigid body: an eighth of all numbers come back with another last bit,
-  // and results are held to be the same bits as before.
+  // Inverted twice, as in series with a rigid body: this changes the last bit of an eighth of all numbers,
+  // and results have to stay bitwise the same as before.
   stiffness_ = 1 / (1 / parameters.particle_stiffness);
   for (const double r : particles.radius)
     smallest_radius_ = std::min(smallest_radius_, r);
@@ -213,8 +213,8 @@ void ContactLayer::set_rows(const std::vector<int> &particles) {
   idle_until_.assign(particles.size(), 0);
 }
 
-// What was worked out last is told by the history of its rows, which get other numbers. A row that leaves the
-// list was far from any contact.
+// The due rows of the last step still hold their results in the history; they get new numbers. A row that
+// leaves the list was far from any contact.
 void ContactLayer::find_due_rows_again(const std::vector<int> &order, std::size_t old_rows) {
   std::vector<int> now(old_rows, -1);
   for (std::size_t k = 0; k < order.size(); ++k)
@@ -268,8 +268,8 @@ double ContactLayer::seat_stiffness(double radius) const {
 double ContactLayer::stiffest_spring(int face, double radius) const {
   const double whole = stiffness_of(radius);
   if (parameters_.face_compliance.empty()) return whole;
-  // w^T C w is convex, so that nothing within the face gives way more than the worst of its corners; where
-  // that is more than can be taken out, some other place is the stiffest.
+  // w^T C w is convex, so that no point of the face is softer than the worst of its corners; where that is
+  // more than can be taken out, another point is the stiffest.
   const fem::FaceCompliance &c = parameters_.face_compliance[index(face)];
   return beside_indentation<dem::OfScalars>(
       whole, std::min(most_indentation / whole, std::max({c[0][0], c[1][1], c[2][2], c[3][3]})));
@@ -312,8 +312,8 @@ fem::VertexSprings ContactLayer::vertex_springs(const dem::Particles &particles,
     const double r = particles.radius[index(i)], k = stiffest_spring(at.face, r);
     const double stiffest = spring_ != nullptr ? std::max(1.0, tangential_ratio()) * k : k;
     const double dashpot = 2 * parameters_.damping * std::sqrt(stiffness_of(r) * particles.mass[index(i)]);
-    // Held grains give moments without a limit, as forces along the normal on the corners: K = k b b^T for
-    // each axis, with b = +- 1 / (2 h) across a width h, so that no row of both adds to more than k / h^2.
+    // Glued grains give moments without a limit, as forces along the normal on the corners: K = k b b^T for
+    // each axis, with b = +- 1 / (2 h) across a width h, so that no row of both has a sum above k / h^2.
     const double h = narrowest(body.surface(), at.face);
     const bool held = seat_spring_ != nullptr && row < table_.size() && tied(row);
     const double rocking = held ? seat_stiffness(r) / (h * h) : 0;
@@ -341,7 +341,7 @@ void ContactLayer::describe(Archive &archive) {
   archive("friction_work", friction_work, "J");
   archive("damping_work", damping_work, "J");
   archive("closed", closed);
-  // Older states do not know it: it is told from the next step on.
+  // Older states do not have it: it is known from the next step on.
   archive("elastic_energy", elastic_energy_, "J", std::numeric_limits<double>::quiet_NaN(), or_nan());
   if (parameters_.hertz) {
     archive("deepest", deepest_, "1", at_least(0));
@@ -351,7 +351,7 @@ void ContactLayer::describe(Archive &archive) {
   if (const StateSource *state = archive.looks_at()) require_ascending(*state, archive.path("rows/particle"));
   if (!archive.reads()) return;
   search_.forget();
-  keep_due(0); // of other rows
+  keep_due(0); // they belong to other rows
 }
 
 } // namespace platen::coupling

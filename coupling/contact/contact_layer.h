@@ -1,24 +1,24 @@
 // Contact between the particles and the surface of one body: node to surface, one contact per particle. The
-// particle is the node; its sphere touches the closest point of the whole surface, wherever that lies among
-// faces, edges and vertices, so that neither force nor friction history notices the mesh.
+// particle is the node; its sphere touches the closest point of the whole surface, on a face, an edge or a
+// vertex, so that force and friction history do not depend on the mesh.
 //
 // Normal n from body to particle, gap g = distance of the centre - R - offset, positive when open. Force on
-// the particle F = N n + T with N = k_n (-g) - c n.v, N >= 0, c = 2 xi sqrt(k m), m the particle's mass
-// (the body is taken as much heavier); T after dem/laws/friction_law.h with k_t = ratio k_n. It acts at
-// the closest point. v is the particle's velocity there, minus the surface's, both as they were over the last
-// drift (half-step values: their product with dt is the displacement, and the works below are those that
-// velocity Verlet sees).
+// the particle F = N n + T with N = k_n (-g) - c n.v, N >= 0, c = 2 xi sqrt(k m), m the particle's mass (the
+// body is assumed to be much heavier); T after dem/laws/friction_law.h with k_t = ratio k_n. It acts at the
+// closest point. v is the particle's velocity there, minus the surface's, both over the last drift (half-step
+// values: their product with dt is the displacement, and the works below are those of velocity Verlet).
 //
-// On a mesh that yields, a force sinks in by c = w^T C w, with the weights w that it gives the corners of the
-// face, and ever deeper as the mesh is refined. Given C, the spring here is what that leaves of the stiffness
-// asked for, 1/k_n = 1/k - c: both together are k wherever on a face the contact lies, and what the body
-// gives way as a whole comes on top. That holds up to k c = .46, which elements of five radii of the contact
-// reach at their vertices; beyond, less is taken out, and from k c = .85 on nothing: the contact is too soft.
+// On a deformable mesh, a force with the weights w on the corners of the face has the indentation compliance
+// c = w^T C w, which grows as the mesh is refined. Given C, the spring here has only the rest of the
+// prescribed stiffness, 1/k_n = 1/k - c: spring and mesh together have k everywhere on a face, and the
+// compliance of the body as a whole is additional. That holds up to k c = .46, which elements of five radii
+// of the contact reach at their vertices; beyond, less is taken out, and from k c = .85 on nothing: the
+// contact is then too soft.
 //
 // Or Hertz-Mindlin (dem/laws/hertz_on_plane.h): N = 4/3 E* sqrt(R) (-g)^1.5 - c n.v with c = 2 sqrt(5/6) xi
-// sqrt(k_n m), which gives the restitution exp(-pi xi / sqrt(1 - xi^2)) where N is not held at zero. A
-// softer tangential spring keeps its stretch, a stiffer one its force, as between grains; what that loses is
-// friction's. The spring turns about the normal with the mean of sphere and surface.
+// sqrt(k_n m), which gives the restitution exp(-pi xi / sqrt(1 - xi^2)) where N is not cut off at zero. When
+// the tangential spring softens it keeps its stretch, when it stiffens its force, as between grains; the
+// energy lost counts as friction. The spring turns about the normal with the mean of sphere and surface.
 #pragma once
 
 #include <array>
@@ -41,18 +41,18 @@
 namespace platen::coupling {
 
 enum class Attachment {
-  free, // contact only: pushes, slides, lets go
-  glued // seated particles are tied to the surface: pull as well as push, no limit to the tangential force
+  free, // contact only: pushes, slides, opens
+  glued // seated particles are tied to the surface: push and pull, no limit to the tangential force
 };
 
 // Frictionless surfaces have no tangential columns.
 struct SurfaceContact : dem::SurfaceFriction {
-  // N/m, k_n of the whole contact; of a linear one
+  // N/m, k_n of the whole contact, if linear
   double particle_stiffness = std::numeric_limits<double>::quiet_NaN();
-  // Of the whole contact, in place of stiffness and tangential ratio. Nothing is glued with it.
+  // Of the whole contact, instead of stiffness and tangential ratio. Excludes glue.
   std::optional<dem::HertzOnPlane> hertz;
-  // Of a body that yields: the indentations of its mesh under single forces, which the stiffness above holds
-  // already and which are therefore taken out of the spring (see below). Empty: none.
+  // For a deformable body: the indentations of its mesh under single forces, which the stiffness above
+  // already includes and which are therefore taken out of the spring (see above). Empty: none.
   std::vector<fem::FaceCompliance> face_compliance; // m/N, one per face
   double tangential_ratio = 0.8;                    // k_t / k_n, > 0
   double damping = 0;                               // fraction of critical, >= 0
@@ -62,11 +62,12 @@ struct SurfaceContact : dem::SurfaceFriction {
   double seat_modulus = 0;
   double skin =
       std::numeric_limits<double>::quiet_NaN(); // m, of the search; a third of the mean radius is good
-  dem::InstructionSet instruction_set = dem::best_instruction_set(); // changes no bit
-  bool in_lanes = true; // rows in vectors, where all effects of the layer have them; changes no bit
+  dem::InstructionSet instruction_set = dem::best_instruction_set(); // does not change any bit
+  bool in_lanes = true; // rows in vectors, where the kernel has all effects of the layer; does not change any
+                        // bit
 };
 
-// One contact as it is now, for output.
+// A present contact, for output.
 struct ActiveContact {
   int particle = 0;        // row
   int face = 0;            // of the surface
@@ -86,42 +87,42 @@ public:
   ~ContactLayer();
 
   // Seats every particle whose surface lies within `depth` (m) of the body, each at its present gap, as if
-  // sawn flush with the surface: that gap is from then on the zero of its own. Returns how many.
-  // `upright`: only those that the surface meets along z. A strip grinds what is under its face; a sphere
-  // beside its edge would be seated aslant, and wedge.
+  // cut flush with the surface: that gap is then its zero. Returns the number. `upright`: only particles
+  // whose contact normal is along z. Only particles under the face of a strip are ground; a sphere next to
+  // its edge would be seated at an angle, and wedge.
   int seat_within(const dem::Particles &particles, const fem::LoadedSurface &body, double depth,
                   bool upright = false);
   int seats() const;
 
   // Once per step, after the drift: no particle has moved relative to the surface by more than `distance` (m)
   // since the last call. Throws std::runtime_error where that is more than the smallest radius: a particle
-  // could have passed through a face without being seen.
+  // could have passed through a face undetected.
   void moved(double distance);
 
-  // Lists the particles near the surface if the list is out of date. add_forces does it by itself; call it
-  // before asking for springs or stiffness ahead of the first step.
+  // Lists the particles near the surface if the list is out of date. add_forces does this itself; call it
+  // before reading springs or stiffness ahead of the first step.
   void update_search(const dem::Particles &particles, const fem::LoadedSurface &body);
   // The same in any case.
   void make_list(const dem::Particles &particles, const fem::LoadedSurface &body);
 
-  // The stage: adds contact forces (and torques) to the particles and loads to the body, advances the history
-  // by the step dt (s) that the drift made. Reads position, velocity, radius, mass (angular_velocity); writes
-  // force (torque). The same to the last bit for any number of threads and whenever the search list was made.
+  // Force computation: adds contact forces (and torques) to the particles and loads to the body, advances the
+  // history by the step dt (s) of the drift. Reads position, velocity, radius, mass (angular_velocity);
+  // writes force (torque). Bitwise the same for any number of threads and any time of the search list.
   void add_forces(dem::Particles &particles, fem::LoadedSurface &body, double dt);
 
-  // The stage in three pieces, for who has other work for threads that wait. The contacts that are due, in
-  // how many parts:
+  // The force computation in three parts, for callers with other work for idle threads. Returns the number of
+  // parts of the contacts that are due:
   std::size_t prepare(const dem::Particles &particles, const fem::LoadedSurface &body);
-  // the forces of one part, in any order and on any thread, from particles and body as they are then; writes
-  // nothing but the layer's own rows;
+  // computes the forces of one part, in any order and on any thread, from the present particles and body;
+  // writes only the layer's own rows;
   void compute_part(const dem::Particles &particles, const fem::LoadedSurface &body, double dt,
                     std::size_t part);
-  // and then, once, what particles and body get of them. Without a body: the particles alone, for who looks
-  // at the body's loads seldom; load_body() gives them of the last step.
+  // then, once, adds the results to particles and body. Without a body: to the particles alone, for callers
+  // that seldom read the body's loads; load_body() gives the loads of the last step.
   void apply_forces(dem::Particles &particles, fem::LoadedSurface *body);
   void load_body(fem::LoadedSurface &body) const;
 
-  // Row of the first particle of a part, after prepare(). Parts ascend by it.
+  // Row of the first particle of a part, after prepare(). Parts are in ascending order of it.
   int particle_of_part(std::size_t part) const;
 
   // Without a call, prepare() and compute_part() compute all rows.
@@ -134,15 +135,14 @@ public:
 
   // Of the last add_forces.
   std::vector<ActiveContact> contacts() const; // ascending particle rows
-  // visit(face, place in m) for each of them, without more of it.
+  // Calls visit(face, point in m) for each of them.
   template <class Visit>
   void visit_contacts(const Visit &visit) const {
     for (std::size_t k = 0; k < results_.size(); ++k)
       if (results_.load[k].particle >= 0) visit(results_.load[k].face, results_.contact[k].point);
   }
   double elastic_energy() const { return elastic_energy_; } // J, normal, tangential and seat springs
-  // Slip of the contacts near each surface vertex (m), their mean by the weights of the force; zero
-  // elsewhere.
+  // Mean slip of the contacts near each surface vertex (m), with the weights of the force; zero elsewhere.
   std::vector<double> vertex_slip(const fem::LoadedSurface &body) const;
 
   // Since the start (J).
@@ -150,18 +150,18 @@ public:
   double damping_work = 0;  // lost to dashpots
   std::size_t closed = 0;   // contacts in the last add_forces
 
-  // Springs of all particles near the surface: for the stable step as stiff as they may be anywhere on the
+  // Springs of all particles near the surface: for the stable step with the largest stiffness anywhere on the
   // face, for equilibria (`whole`) with the indentation of the mesh.
   std::vector<dem::GroundSpring> ground_springs(const dem::Particles &particles,
                                                 const fem::LoadedSurface &body, bool whole = false) const;
-  // What the same particles would put on each vertex of the surface.
+  // Springs of the same particles on each vertex of the surface.
   fem::VertexSprings vertex_springs(const dem::Particles &particles, const fem::Body &body) const;
-  // What a servo pushes against: all particles near the surface, touching or not.
+  // The resistance to a servo: all particles near the surface, touching or not.
   ServoLoad servo_load(const dem::Particles &particles) const;
-  // Of Hertz: whether a sphere has sunk in deeper than springs have been counted for since allow_for_depth().
+  // Hertz: whether an overlap is deeper than the springs have been computed for since allow_for_depth().
   bool stiffened() const { return deepest_ > counted_; }
-  // Of Hertz, before its springs are asked for: counts all of them as stiff as the deepest contact now, with
-  // a reserve.
+  // Hertz, before its springs are read: gives all of them the stiffness of the deepest contact now, with a
+  // reserve.
   void allow_for_depth();
 
   const Table &history() const { return table_; } // one row per particle near the surface, ascending
@@ -169,15 +169,15 @@ public:
 
   std::size_t bytes() const; // of rows and search lists
   const SurfaceContact &parameters() const { return parameters_; }
-  // From the next step on. Springs keep what they hold; one that holds more than it now may slides. Throws
+  // From the next step on. Springs keep their force; a spring above its new limit slides. Throws
   // std::invalid_argument as the constructor does, and where a layer that was made without friction is to get
-  // some, for it has no springs.
+  // some, because it has no springs.
   void set_friction(const dem::SurfaceFriction &friction);
   const SurfaceSearch &search() const { return search_; }
 
 private:
   struct Kinematics;
-  // Of one row in one step.
+  // One row in one step.
   struct RowForce {
     bool active = false;
     int particle = 0;
@@ -193,7 +193,7 @@ private:
     double slip = 0;                                         // m
     double elastic = 0, friction_loss = 0, damping_loss = 0; // J
   };
-  // Of one row, between ranks.
+  // One row, sent between ranks.
   struct SharedLoad {
     int row, particle, face;
     std::array<double, 4> weights;
@@ -204,12 +204,12 @@ private:
   void set_rows(const std::vector<int> &particles);
   void find_due_rows();
   void find_due_rows_again(const std::vector<int> &order, std::size_t old_rows); // as set_rows orders them
-  void keep_due(std::size_t count);                                              // the first ones
+  void keep_due(std::size_t count);                                              // keeps the first ones
   std::vector<int> seated_particles() const;
   std::size_t add_row(int particle);
-  void seat(int particle, double offset); // m, the gap at rest, negative where it overlaps
-  // Under a force on a face that its corners share by these weights: m/N, of the mesh; N/m, of the linear
-  // spring without that.
+  void seat(int particle, double offset); // m, the gap at rest, negative for an overlap
+  // For a force with these weights on the corners of a face: m/N, of the mesh; N/m, of the linear spring
+  // without the mesh.
   double indentation(int face, const std::array<double, 4> &weights) const;
   double spring(int face, const std::array<double, 4> &weights) const;
   double stiffness_of(double radius) const; // N/m, of the whole contact of a sphere
@@ -220,7 +220,7 @@ private:
   bool holds_history(std::size_t row) const;
   void compute_in_lanes(const dem::Particles &particles, const fem::LoadedSurface &body, double dt,
                         std::size_t first, std::size_t count, const SurfacePoints &points);
-  // With the point that it finds in `result.at`.
+  // Writes the closest point to `result.at`.
   void row_force(const dem::Particles &particles, const fem::LoadedSurface &body, std::size_t row, double dt,
                  RowForce &result);
   void press(const SurfacePoint &at, double mass, Kinematics &motion) const;
@@ -231,7 +231,7 @@ private:
   void seat_moment(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   void keep_history(std::size_t row, RowForce &result);
   void push_particle(dem::Particles &particles, std::size_t k) const;
-  void sum_rows(); // what all rows have in common
+  void sum_rows(); // sums over all rows
   void keep_result(std::size_t k, const RowForce &row, const Vector3 &centre);
 
   SurfaceContact parameters_;
@@ -249,18 +249,18 @@ private:
   Column<Vector3> *spring_ = nullptr;              // N; with friction or glue
   Column<int> *sliding_ = nullptr;                 // the same
   Column<double> *slip_ = nullptr;                 // m, the same
-  Column<double> *tangential_stiffness_ = nullptr; // N/m, the same; of Hertz, where it changes
+  Column<double> *tangential_stiffness_ = nullptr; // N/m, the same; only of Hertz, where it changes
   Column<Vector3> *seat_spring_ = nullptr;         // N m; with seats
   Column<int> *seat_sliding_ = nullptr;
 
   std::vector<char> own_blocks_;   // empty: all
-  double travelled_ = 0;           // m, sum of the distances told to moved()
-  std::vector<double> idle_until_; // of each row: no contact before travelled_ is that
-  std::vector<std::size_t> due_;   // rows to work out in this step
-  RowResults results_;             // of them
-  std::vector<Vector3> moments_;   // N m, of them; with seats
+  double travelled_ = 0;           // m, sum of the distances given to moved()
+  std::vector<double> idle_until_; // for each row: no contact while travelled_ is less
+  std::vector<std::size_t> due_;   // rows to compute in this step
+  RowResults results_;             // of the due rows
+  std::vector<Vector3> moments_;   // N m, of the due rows; with seats
   double elastic_energy_ = 0;
-  // Of Hertz, overlap over radius: the most in the last step, and what springs are counted for.
+  // Hertz, overlap over radius: largest in the last step, and the one that springs are computed for.
   double deepest_ = 0, counted_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// Rows of a contact layer that several ranks work out together: each those of its own particles, and all get
-// what these give to the body. Added up row by row, as on one rank.
+// Rows of a contact layer that several ranks compute together: each rank those of its own particles, and all
+// get their loads on the body. Summed row by row, as on one rank.
 #include <algorithm>
 #include <cstring>
 
@@ -54,7 +54,7 @@ void ContactLayer::put_loads(std::vector<char> &bytes) const {
   }
 }
 
-// Own rows stay as they are: of others the torque on the particle and what only pictures need is not sent.
+// Own rows stay unchanged: of other rows the torque on the particle and data for output only are not sent.
 void ContactLayer::take_loads(const std::vector<char> &of_all) {
   std::vector<SharedLoad> shared(of_all.size() / sizeof(SharedLoad));
   if (!shared.empty()) std::memcpy(static_cast<void *>(shared.data()), of_all.data(), of_all.size());

@@ -1,4 +1,4 @@
-// What every particle near a surface feels in a step, row by row.
+// The forces on the particles near a surface in a step, row by row.
 #include <algorithm>
 #include <cmath>
 
@@ -17,11 +17,11 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double rocking_limit = 0.5; // moment of a seat over N R: the resultant stays within half the radius
 const double tsuji = std::sqrt(5.0 / 6.0);                 // with it Hertz' dashpot is a fraction of critical
 constexpr std::size_t rows_per_part = SurfacePoints::most; // a row costs as much as some bonds
-constexpr std::size_t rows_per_push = 128;                 // of a thread: a microsecond
+constexpr std::size_t rows_per_push = 128;                 // of one thread: a microsecond
 
 } // namespace
 
-// How particle and surface move against each other at the closest point.
+// Relative motion of particle and surface at the closest point.
 struct ContactLayer::Kinematics {
   double gap = 0;           // m
   double opening_speed = 0; // m/s
@@ -43,8 +43,7 @@ bool ContactLayer::holds_history(std::size_t row) const {
          (seat_spring_ != nullptr && norm_squared((*seat_spring_)[row]) > 0);
 }
 
-// A row is passed over while nothing can have brought its particle to the surface since it was last worked
-// out.
+// A row is skipped while its particle cannot have reached the surface since the row was last computed.
 void ContactLayer::find_due_rows() {
   const std::size_t rows = table_.size();
   const bool all = own_blocks_.empty();
@@ -74,10 +73,10 @@ void ContactLayer::compute_part(const dem::Particles &particles, const fem::Load
                                 std::size_t part) {
   const std::size_t first = part * rows_per_part, last = std::min(due_.size(), first + rows_per_part);
   int at[rows_per_part] = {};
-  thread_local SurfacePoints points; // not made anew for each part
+  thread_local SurfacePoints points; // not allocated again for each part
   for (std::size_t k = first; k < last; ++k) {
     const std::size_t i = static_cast<std::size_t>(at[k - first] = particle_[due_[k]]);
-    // Asked for ahead of the search: particles at a surface stand far apart in memory.
+    // Prefetched before the search: particles at a surface are far from each other in memory.
     __builtin_prefetch(&particles.velocity[i]);
     __builtin_prefetch(&particles.radius[i]);
     if (parameters_.damping > 0) __builtin_prefetch(&particles.mass[i]);
@@ -115,9 +114,9 @@ int ContactLayer::particle_of_part(std::size_t part) const {
   return particle_[due_[part * rows_per_part]];
 }
 
-// Rows have a particle each, so that threads never meet; what they share, sums and body, is served after, row
-// by row: rows that are passed over may differ from run to run, sums may not. Rows ascend with their
-// particles: each thread pushes those that it moves.
+// Each row has its own particle, so that threads do not conflict; the common sums and the body are updated
+// later, row by row: the skipped rows may differ from run to run, sums may not. Rows ascend with their
+// particles: each thread pushes the particles that it moves.
 void ContactLayer::apply_forces(dem::Particles &particles, fem::LoadedSurface *body) {
   const auto push = [&](std::size_t block) {
     const std::size_t last = std::min(results_.size(), (block + 1) * rows_per_push);
@@ -216,7 +215,7 @@ void ContactLayer::row_force(const dem::Particles &particles, const fem::LoadedS
   }
 }
 
-// The spring by itself, and its dashpot.
+// The spring without its dashpot, and the dashpot's coefficient.
 void ContactLayer::press(const SurfacePoint &at, double mass, Kinematics &motion) const {
   if (!parameters_.hertz) {
     motion.k_n = spring(at.face, at.local.weights);
@@ -234,8 +233,8 @@ void ContactLayer::press(const SurfacePoint &at, double mass, Kinematics &motion
   motion.stored = r.energy;
 }
 
-// The work of the dashpot by the trapezoid rule, as the leapfrog does it. Where the sum is held at zero the
-// dashpot has used up the spring's force, and what the spring gives back is lost to it.
+// The work of the dashpot by the trapezoid rule, consistent with the leapfrog. Where the sum is cut off at
+// zero the dashpot has cancelled the spring's force, and the energy that the spring releases is lost to it.
 void ContactLayer::normal_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result) {
   if (result.active) {
     result.normal_force = motion.pressing - motion.c_n * motion.opening_speed;
@@ -246,8 +245,8 @@ void ContactLayer::normal_force(std::size_t row, const Kinematics &motion, doubl
   result.damping_loss = -0.5 * (dashpot_[row] + result.dashpot) * motion.opening_speed * dt;
 }
 
-// N/m, of a contact that is there or was in the last step. Where it has become softer the spring keeps its
-// stretch, where stiffer its force: both only lose energy. The leapfrog saw the force as it was over half of
+// N/m, of a contact that is closed or was in the last step. Where it has become softer the spring keeps its
+// stretch, where stiffer its force: both only lose energy. The leapfrog saw the previous force over half of
 // the stretch (m).
 double ContactLayer::tangential_spring(std::size_t row, const Kinematics &motion, const Vector3 &stretch,
                                        Vector3 &spring, RowForce &result) {
@@ -274,7 +273,7 @@ void ContactLayer::tangential_force(std::size_t row, const Kinematics &motion, d
   const Vector3 stretch = -dt * motion.slide;
   const double k_t = tangential_spring(row, motion, stretch, state.spring, result);
   if (!(k_t > 0)) return; // of Hertz: neither now nor before
-  // Glue has no limit, and any force presses it.
+  // Glue has no limit, so that any pressing force will do.
   const CoulombFriction glue{{infinite, infinite}};
   const double pressing = tied(row) ? 1 : (result.active ? result.normal_force : 0);
   const dem::FrictionLaw friction = dem::friction_law(parameters_);
@@ -290,7 +289,7 @@ void ContactLayer::tangential_force(std::size_t row, const Kinematics &motion, d
 }
 
 // A flat end of a ground sphere rocks on an elastic base: a spring with a limit, the law of friction with
-// angles for paths and R/2 for the coefficient.
+// angles for displacements and R/2 for the coefficient.
 void ContactLayer::seat_moment(std::size_t row, const Kinematics &motion, double dt, RowForce &result) {
   const Vector3 &n = result.at.normal;
   const double stiffness = seat_stiffness(motion.radius);

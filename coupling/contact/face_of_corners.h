@@ -1,12 +1,12 @@
-// What a face that moves is set up from its corners, for one face or for a SIMD vector of them: one text, so
-// that both give the same bits.
+// Data of a moving face from its corners, for one face or for a SIMD vector of them: one source, so that both
+// give the same bits.
 #pragma once
 
 #include "dem/laws/lanes.h"
 
 namespace platen::coupling {
 
-// The members of MovingFace (faces.h), which says what they are.
+// The members of MovingFace (faces.h), which describes them.
 template <class Real>
 struct FaceOfCorners {
   dem::Triple<Real> e, f, t, linear, free, corner, normal, along, across, middle, half;
@@ -14,7 +14,7 @@ struct FaceOfCorners {
 };
 
 namespace face_setup {
-constexpr double round_off = 1e-12; // of a face: a box holds it for certain
+constexpr double round_off = 1e-12; // of a face: added to a box so that it contains the face
 
 template <class How, class Real>
 PLATEN_INLINE Real smaller(const Real &a, const Real &b) {
@@ -67,8 +67,8 @@ PLATEN_INLINE Real half_box(const dem::Triple<Real> (&q)[4], const dem::Triple<R
 }
 } // namespace face_setup
 
-// Of corners in global axes (m). Where the result is false (lane by lane of a SIMD vector) the face has no
-// area, and nothing is said.
+// From corners in global axes (m). Where the result is false (lane by lane of a SIMD vector) the face has no
+// area, and its data are undefined.
 template <class How, class Real>
 PLATEN_INLINE auto set_face(const dem::Triple<Real> (&q)[4], FaceOfCorners<Real> &face) {
   using dem::cross, dem::dot, dem::scale;

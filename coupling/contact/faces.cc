@@ -11,7 +11,7 @@ namespace platen::coupling {
 
 namespace {
 
-// Farther from a plane than this share of the face is not flat.
+// Distance from a plane, as a fraction of the face's size, above which a face is not flat.
 constexpr double flatness = 1e-14;
 
 double size_of(const Quad &q) {
@@ -20,9 +20,9 @@ double size_of(const Quad &q) {
 
 using closest_search::rim;
 
-// Any axes hold for the box; nothing has a closest point.
+// Any axes are valid for the box; the face has no closest point.
 void set_without_area(const Quad &q, MovingFace &face) {
-  Vector3 low, high; // of the first corner
+  Vector3 low, high; // from the first corner
   for (std::size_t k = 1; k < 4; ++k)
     for (int axis = 0; axis < 3; ++axis) {
       low[axis] = std::min(low[axis], (q[k] - q[0])[axis]);

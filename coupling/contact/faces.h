@@ -1,5 +1,5 @@
-// The flat faces of a surface that moves without turning: what does not change from step to step is worked
-// out once, so that the closest point of a particle on a platen costs a few products.
+// The flat faces of a surface that moves without turning: data that do not change from step to step are
+// computed once, so that the closest point of a platen to a particle costs a few products.
 #pragma once
 
 #include <vector>
@@ -17,34 +17,34 @@ struct BilinearMap {
   double square = 0, constant = 0;
 
   void set_corners(const Quad &corners);
-  void set_plane(const Vector3 &normal); // along which points come down
+  void set_plane(const Vector3 &normal); // the direction of the projection of points
 };
 
-// A face as it was when the search was set up, in doubles alone and three cache lines.
+// A face at the setup of the search, in doubles only and three cache lines.
 struct alignas(64) FlatFace : BilinearMap {
   Vector3 normal;  // unit, out of the body
   double flat = 0; // 1: flat and convex
   double spare[3]{};
 };
 
-// A closest point on a flat face: its place, and the distance of the centre along the normal (m), negative
+// A closest point on a flat face: its position, and the distance of the centre along the normal (m), negative
 // inside the body.
 struct FlatPoint {
   double u = 0, v = 0, distance = 0;
 };
 
 // Closest point of a centre, given relative to the face's first corner (m), where the face is flat and convex
-// and the closest point lies inside it, off its rim by 1e-9 of its size; false elsewhere, which says nothing.
+// and the closest point lies inside it, off its rim by 1e-9 of its size; elsewhere false, without a point.
 bool find_closest(const FlatFace &face, const Vector3 &centre, FlatPoint &closest);
 
 class FlatFaces {
 public:
-  // From the faces where they are now; a later shift of all of them changes nothing.
+  // From the present positions of the faces; a later shift of all of them changes nothing.
   explicit FlatFaces(const fem::SurfaceMesh &surface);
 
   const FlatFace &face(int index) const { return faces_[static_cast<std::size_t>(index)]; }
-  // Faces with the same number make up one flat piece of the surface: outside the face that holds its closest
-  // point, no face of the piece is nearer to a centre.
+  // Faces with the same number form one flat piece of the surface: outside the face with the closest point,
+  // no face of the piece is nearer to a centre.
   int piece(int face) const { return piece_[static_cast<std::size_t>(face)]; }
 
 private:
@@ -55,9 +55,9 @@ private:
   std::vector<int> piece_;
 };
 
-// The faces of a surface that turns or deforms, as they are in one step: what all particles near a face share
-// is worked out once, so that the closest point of each costs two steps of Newton's method. The map is
-// inverted in the mean plane, for a start.
+// The faces of a surface that turns or deforms, in one step: data that all particles near a face use are
+// computed once, so that the closest point of each costs two steps of Newton's method. The start is the
+// inverse of the map in the mean plane.
 struct alignas(64) MovingFace : BilinearMap {
   Vector3 corner; // m
   Vector3 normal; // unit, of the mean plane
@@ -72,7 +72,7 @@ struct alignas(64) MovingFace : BilinearMap {
 // From corners in global axes (m). Any corners are legal.
 MovingFace moving_face(const Quad &corners);
 
-// No point of the face is nearer to the centre (m, global axes) than the root of this (m^2).
+// No point of the face is nearer to the centre (m, global axes) than the root of the result (m^2).
 double least_distance_squared(const MovingFace &face, const Vector3 &centre);
 
 // A closest point inside a face.
@@ -84,8 +84,8 @@ struct FacePoint {
 };
 
 // Closest point of the centre where there is a single one and it lies inside the face, off its rim by 1e-9 of
-// its size: to 1e-12 of the face along it, and so with a distance to round-off. False elsewhere, which says
-// nothing.
+// its size: to 1e-12 of the face along it, and so with a distance to round-off. Elsewhere false, and the
+// point is undefined.
 bool find_closest(const MovingFace &face, const Vector3 &centre, FacePoint &closest);
 
 } // namespace platen::coupling

@@ -1,4 +1,4 @@
-// Rows of a contact layer in SIMD vectors, where the layer has but linear springs, dashpots and Coulomb's
+// Rows of a contact layer in SIMD vectors, where the layer has only linear springs, dashpots and Coulomb's
 // friction with two coefficients: no Hertz, glue, seats or friction that weakens. One source, compiled once
 // per instruction set (layer_kernel.inc.h), to the bits of ContactLayer::row_force.
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace platen::coupling::kernels {
 
-// Columns of the layer's rows and of particles, each with one row to spare.
+// Columns of the layer's rows and of particles, each with one spare row at the end.
 struct LayerColumns {
   const int *particle;
   const double *offset; // m
@@ -22,16 +22,16 @@ struct LayerColumns {
   int *sliding;
   double *slip;                               // m
   double *idle_until;                         // m
-  const Vector3 *velocity, *angular_velocity; // the last null without rotation
+  const Vector3 *velocity, *angular_velocity; // the last is null without rotation
   const double *radius, *mass;
 };
 
-// Of a fem::SurfaceMesh.
+// Columns of a fem::SurfaceMesh.
 struct LayerSurface {
   const Vector3 *velocity; // m/s, of each vertex
   const int *corner;       // vertices, four of each face
   bool only_shifted;
-  const double *compliance; // m/N, a fem::FaceCompliance of each face; null: the mesh does not yield
+  const double *compliance; // m/N, a fem::FaceCompliance of each face; null: the mesh is rigid
 };
 
 struct LayerStep {
@@ -43,7 +43,7 @@ struct LayerStep {
   double travelled = 0; // m, as in idle_until
 };
 
-// Of the first of the rows that are worked out.
+// From the first of the computed rows on.
 struct LayerResults {
   RowLoad *load;
   RowTorque *torque;
@@ -51,7 +51,7 @@ struct LayerResults {
   RowContact *contact;
 };
 
-// Rows row[0 ... count), ascending, count <= SurfacePoints::most, with the points closest to them.
+// Computes row[0 ... count), ascending, count <= SurfacePoints::most, with the points closest to them.
 using ComputeRows = void (*)(const LayerColumns &, const LayerSurface &, const LayerStep &,
                              const SurfacePoints &points, const std::size_t *row, std::size_t count,
                              const LayerResults &results);

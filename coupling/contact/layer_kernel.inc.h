@@ -23,11 +23,11 @@ using How = dem::kernels::OfLanes;
 // Lanes from `count` on repeat the last row and are not written.
 struct Rows {
   int row[lanes], particle[lanes], count;
-  bool follow; // each other in memory, and fill the SIMD vector
+  bool follow; // contiguous in memory, and fill the SIMD vector
   int face[lanes];
 };
 
-// Columns of the layer: most rows stand beside each other.
+// Columns of the layer: most rows are adjacent.
 template <class T>
 PLATEN_INLINE auto read(const T *column, const Rows &r) {
   return r.follow ? dem::kernels::load(column + r.row[0]) : gather(column, r.row);
@@ -105,7 +105,7 @@ struct Push {
   Simd normal_force, elastic, friction_loss, damping_loss, slip;
 };
 
-// The friction spring in the plane as it is now; with its energy and what it has lost.
+// The friction spring in the present plane, with its energy and its loss.
 PLATEN_INLINE void rub(const LayerColumns &c, const LayerStep &s, const Rows &r, const Points &p,
                        const Triple<Simd> &spring, const Triple<Simd> &slide, const Simd &spin,
                        const Simd &k_t, Push &push) {
@@ -167,13 +167,13 @@ PLATEN_INLINE Push push_lanes(const LayerColumns &c, const LayerSurface &surface
   if (c.spring != nullptr) {
     rub(c, s, r, p, read(c.spring, r), slide, face.spin, Simd(Simd(s.tangential_ratio) * k_n), push);
   }
-  // What it held it has let go of now.
+  // An open contact has released its springs in this step.
   const Simd until = Simd(s.travelled) + Simd(1 - idle_margin) * gap;
   write(c.idle_until, r, How::choose(push.active, zero, until));
   return push;
 }
 
-// Four numbers at once; what runs into the next one is written before it. `first`: of the results.
+// Writes four numbers at once; a member that the fourth overwrites is written later. `first`: of the results.
 PLATEN_INLINE void keep(const Rows &r, const Points &p, const Rotation<Simd> &weights, const Push &push,
                         const LayerResults &results, std::size_t first) {
   const Triple<Simd> force = scale(push.normal_force, p.normal) + push.shear;

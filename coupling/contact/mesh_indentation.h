@@ -1,14 +1,14 @@
-// What the spring of a contact leaves to the mesh below it, for one contact or for a SIMD vector of them: one
-// text, so that both give the same bits.
+// The spring of a contact in series with the mesh below it, for one contact or for a SIMD vector of them: one
+// source, so that both give the same bits.
 #pragma once
 
 #include "dem/laws/lanes.h"
 
 namespace platen::coupling {
 
-// A body that is solved for now and then answers a force by k_n c of it, and that again by as much: below 1
-// this dies out. The spring of a contact is therefore made stiffer up to this k_n c and no further; where the
-// indentation alone is as much, nothing is taken out.
+// A body that is solved only now and then responds to a force with k_n c of it, and to that again: below 1
+// this decays. The spring of a contact is therefore made stiffer only up to this k_n c; where the indentation
+// alone reaches this limit, nothing is taken out.
 constexpr double most_answer = 0.85;
 constexpr double most_indentation = most_answer / (1 + most_answer); // k c up to which all of it is taken out
 
@@ -21,7 +21,7 @@ PLATEN_INLINE Real indentation_of(const dem::Rotation<Real> &w, const dem::Rotat
   return w.w * row(c[0]) + w.x * row(c[1]) + w.y * row(c[2]) + w.z * row(c[3]);
 }
 
-// N/m, of the spring that makes up the stiffness with an indentation (m/N) in series.
+// N/m, of the spring that gives this stiffness in series with an indentation (m/N).
 template <class How, class Real>
 PLATEN_INLINE Real beside_indentation(const Real &stiffness, const Real &indentation) {
   const Real one = Real(1.0), most = Real(most_indentation), share = stiffness * indentation;

@@ -1,4 +1,4 @@
-// What a row of a contact layer comes to in a step.
+// The results of a row of a contact layer in a step.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace platen::coupling {
 
-// What it gives to the body, and the force on the particle: one line of a cache. The force stands before the
-// weights, because kernels write four numbers at once.
+// The load on the body and the force on the particle: one cache line. The force is before the weights,
+// because kernels write four numbers at once.
 struct alignas(64) RowLoad {
   int particle = -1; // -1: no contact
   int face = -1;
@@ -19,20 +19,20 @@ struct alignas(64) RowLoad {
 };
 static_assert(sizeof(RowLoad) == 64);
 
-// What only the particle gets, and pictures.
+// Values for the particle and for output only.
 struct alignas(32) RowTorque {
   Vector3 torque;          // N m, about the particle's centre
-  double normal_force = 0; // N, share of the force along the normal
+  double normal_force = 0; // N, part of the force along the normal
 };
 
-// What it adds to the sums of the layer. One thread reads it of all rows in every step, the rest of a row
+// Contributions to the sums of the layer. One thread reads them for all rows in every step; the rest of a row
 // stays with the thread that has its particle.
 struct alignas(32) RowWork {
   double elastic = 0, friction_loss = 0, damping_loss = 0; // J
   double depth = -1; // 1, overlap over radius of Hertz; negative: no contact
 };
 
-// Where it touches. What else is told of a contact is in its row's history.
+// The point of contact. Other data of a contact are in its row's history.
 struct RowContact {
   Vector3 point, normal; // m, 1
 };

@@ -1,5 +1,5 @@
-// The closest point of a surface to a listed particle, and the normal there: on faces, and where none is
-// defined.
+// The closest point of a surface to a listed particle, and the normal there: on faces, and at edges and
+// vertices.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,7 +22,7 @@ double largest_corner(const Quad &q) {
       std::max({norm_squared(q[0]), norm_squared(q[1]), norm_squared(q[2]), norm_squared(q[3])}));
 }
 
-// Of the origin from the box around the corners: no point of the face is nearer.
+// Distance of the origin from the box around the corners: no point of the face is nearer.
 double box_distance_squared(const Quad &q) {
   Box box{q[0], q[0]};
   for (std::size_t k = 1; k < 4; ++k)
@@ -73,7 +73,7 @@ bool SurfaceSearch::closest(const SurfaceMesh &surface, int face, const Vector3 
   return true;
 }
 
-// Of a closest point on a face listed: every other one lies in the same plane or farther away.
+// For a closest point on a listed face: every other face lies in the same plane or farther away.
 bool SurfaceSearch::others_are_farther(std::size_t k, int face, double distance) const {
   const double limit = std::abs(distance) * (1 + margin);
   const int piece = flat_.piece(face);
@@ -84,7 +84,7 @@ bool SurfaceSearch::others_are_farther(std::size_t k, int face, double distance)
   return true;
 }
 
-// The same, where it is sure to be the closest point of all. False says nothing.
+// The same, where it is certain to be the closest point of all. If false, the result is undefined.
 bool SurfaceSearch::closest_on_nearest(const SurfaceMesh &surface, std::size_t k, const Vector3 &centre,
                                        SurfacePoint &result) const {
   for (std::size_t n = first_near_[k]; n < first_near_[k + 1]; ++n)
@@ -111,7 +111,7 @@ SurfacePoint SurfaceSearch::closest(const SurfaceMesh &surface, std::size_t k, c
   return closest_listed(surface, k, centre);
 }
 
-// As closest_on_nearest does it: most have their closest point on the first face listed.
+// As closest_on_nearest: most centres have their closest point on the first listed face.
 void SurfaceSearch::closest_on_flat(const SurfaceMesh &surface, const std::size_t *entry,
                                     const Vector3 *centre, const int *at, std::size_t count,
                                     SurfacePoints &points) const {
@@ -128,7 +128,7 @@ void SurfaceSearch::closest_on_flat(const SurfaceMesh &surface, const std::size_
       points.set(n, closest(surface, entry[n], centre[at[n]]), centre[at[n]]);
 }
 
-// A closest point on the first face of the list is the answer where every other face listed is sure to be
+// A closest point on the first face of the list is the result where every other listed face is certain to be
 // farther.
 void SurfaceSearch::closest(const SurfaceMesh &surface, const std::size_t *entry, const Vector3 *centre,
                             const int *at, std::size_t count, SurfacePoints &points) const {
@@ -149,7 +149,7 @@ void SurfaceSearch::closest(const SurfaceMesh &surface, const std::size_t *entry
       points.set(n, closest_listed(surface, entry[n], centre[at[n]]), centre[at[n]]);
 }
 
-// Whether no face behind the first can be as near as that.
+// Whether no face after the first can be as near as that.
 bool SurfaceSearch::is_nearest(std::size_t k, const Vector3 &centre, double distance_squared) const {
   const double limit = distance_squared * (1 + margin), distance = std::sqrt(distance_squared);
   for (std::size_t n = first_near_[k] + 1; n < first_near_[k + 1]; ++n) {
@@ -206,12 +206,12 @@ SurfacePoint SurfaceSearch::closest_of_all(const SurfaceMesh &surface, const Vec
   return whole ? best : with_normal(surface, best.face, best.local, centre);
 }
 
-// Inside or outside: on a face its normal tells; on an edge or vertex the sum of the normals around it,
-// weighted by angle, does for any closed surface (Baerentzen and Aanaes 2005).
+// Inside or outside: on a face its normal decides; on an edge or vertex the sum of the normals around it,
+// weighted by angle, decides for any closed surface (Baerentzen and Aanaes 2005).
 SurfacePoint SurfaceSearch::with_normal(const SurfaceMesh &surface, int face, const ClosestPoint &local,
                                         const Vector3 &centre) const {
   SurfacePoint s;
-  // The same formula as in closest() itself, so that no bit tells which of them it was.
+  // The same formula as in closest(), so that both give the same bits.
   if (local.feature == Feature::face && closest(surface, face, centre, s)) return s;
   s.face = face;
   s.local = local;
@@ -232,7 +232,7 @@ SurfacePoint SurfaceSearch::with_normal(const SurfaceMesh &surface, int face, co
                                           : vertex_normal(surface, face, local.local, centre);
   }
   // Across an edge inside a flat face the direction from surface to centre is that of the normal up to
-  // round-off of the corners; there, and where the centre lies on the surface, the normal itself is taken.
+  // round-off of the corners; there, and where the centre lies on the surface, the normal itself is used.
   const double noise = 32 * std::numeric_limits<double>::epsilon() * largest_corner(corners);
   const double size = norm(out);
   if (norm_squared(mean) > 0 && norm(cross(out, mean)) <= noise) {
@@ -251,7 +251,7 @@ Vector3 SurfaceSearch::edge_normal(const SurfaceMesh &surface, int face, const C
   const std::array<int, 4> &own = corners_of(surface, face);
   const std::size_t k = static_cast<std::size_t>(local.local);
   const int a = own[k], b = own[(k + 1) % 4];
-  const double along = local.weights[(k + 1) % 4]; // share of b
+  const double along = local.weights[(k + 1) % 4]; // fraction of b
   const double corner_u[4] = {0, 1, 1, 0}, corner_v[4] = {0, 0, 1, 1};
   Vector3 sum;
   for (const int other : faces_of_vertex_[static_cast<std::size_t>(a)]) {

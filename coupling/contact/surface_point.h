@@ -1,4 +1,4 @@
-// Where on a surface the centre of a particle finds its closest point.
+// The closest point of a surface to the centre of a particle.
 #pragma once
 
 #include <cstddef>
@@ -7,17 +7,16 @@
 
 namespace platen::coupling {
 
-// The closest point of a whole surface to a particle's centre.
 struct SurfacePoint {
   int face = -1;
   ClosestPoint local;  // point relative to the centre; weights of the face's corners
   Vector3 normal;      // unit, out of the body; from the surface to the centre where the centre is outside
   double distance = 0; // m, of the centre; negative inside the body
-  // m, of the face by u and v; where a surface only shifts nobody asks, and they are zero.
+  // m, derivatives of the point by u and v; zero and unused on a surface that only shifts.
   Vector3 along_u, along_v;
 };
 
-// Of so many centres at most, a column each, as kernels write and read them in whole SIMD vectors.
+// Points of up to `most` centres, one column each, as kernels write and read them in whole SIMD vectors.
 struct alignas(64) SurfacePoints {
   static constexpr std::size_t most = 32;
   double arm[3][most]{}, normal[3][most]{};      // m, from the centre; 1
@@ -42,7 +41,7 @@ struct alignas(64) SurfacePoints {
   std::array<double, 4> weights_at(std::size_t k) const {
     return {weights[0][k], weights[1][k], weights[2][k], weights[3][k]};
   }
-  // Without the feature that it lies on.
+  // Without the feature on which the point lies.
   SurfacePoint at(std::size_t k) const {
     SurfacePoint point;
     for (int c = 0; c < 3; ++c) {

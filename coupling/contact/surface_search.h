@@ -1,4 +1,4 @@
-// Which particles are near a body's surface, and where on it each finds its closest point.
+// The particles near a body's surface, and the closest point of the surface to each.
 #pragma once
 
 #include <cstddef>
@@ -30,8 +30,8 @@ public:
   // The same tree around boxes that have moved. O(n).
   void refit(const std::vector<Box> &boxes);
 
-  // visit(index) for every box, nearest halves first, that is not farther from the point than `limit` (m^2)
-  // allows when its turn comes; visit may lower the limit that it was given by reference.
+  // visit(index) for every box, nearest halves first, that is within the present limit (m^2) of the point;
+  // visit may lower the limit, which was given by reference.
   template <class Visit>
   void near(const Vector3 &point, double &limit_squared, const Visit &visit) const {
     if (!nodes_.empty()) descend(0, point, limit_squared, visit);
@@ -67,15 +67,15 @@ Quad face_corners(const fem::SurfaceMesh &surface, int face, const Vector3 &orig
 
 class SurfaceSearch {
 public:
-  // The surface keeps its faces for the life of the search; its vertices may move. skin (m): how far
-  // particles and surface may move relative to each other before the list is made again; larger means rarer
-  // and longer lists.
+  // The surface keeps its faces for the life of the search; its vertices may move. skin (m): relative
+  // displacement of particles and surface until the list is rebuilt; a larger skin means fewer and longer
+  // lists.
   SurfaceSearch(const fem::SurfaceMesh &surface, double skin,
                 dem::InstructionSet instruction_set = dem::best_instruction_set());
 
   double skin() const { return skin_; }
-  // Tells that no particle has moved relative to the surface by more than `distance` (m) since the last call:
-  // largest particle displacement plus largest surface displacement.
+  // States that no particle has moved relative to the surface by more than `distance` (m) since the last
+  // call: largest particle displacement plus largest surface displacement.
   void moved(double distance) {
     travelled_ += distance;
     looked_ = false;
@@ -89,25 +89,25 @@ public:
   void rebuild(const fem::SurfaceMesh &surface, const Column<Vector3> &position,
                const std::vector<double> &reach, const std::vector<int> &always);
 
-  // Sets up the faces near particles as they are now, so that until moved() is called again closest() need
-  // not do so for each particle. Nothing to do for a surface that only shifts.
+  // Sets up the faces near particles in their present positions, so that closest() need not do so for each
+  // particle until moved() is called again. Does nothing for a surface that only shifts.
   void update(const fem::SurfaceMesh &surface);
 
   long lists_made() const { return lists_made_; }
-  // Rows of the particles listed, ascending.
+  // Rows of the listed particles, ascending.
   const std::vector<int> &particles() const { return particles_; }
 
-  // Closest point over the whole surface for entry k of the list, with the centre where it is now. Exact
-  // while the list is not stale, and the same whenever the list was made. Ties go to the lowest face. May be
-  // called from several threads.
+  // Closest point of the whole surface for entry k of the list and the present centre. Exact while the list
+  // is not stale, and independent of when the list was made. Ties go to the lowest face. May be called from
+  // several threads.
   SurfacePoint closest(const fem::SurfaceMesh &surface, std::size_t k, const Vector3 &centre) const;
 
-  // The same for `count` entries, at most SurfacePoints::most, whose centres are centre[at[k]], of which one
-  // more is read: in vectors, to the same bits.
+  // The same for `count` entries, at most SurfacePoints::most, with the centres centre[at[k]]; reads one more
+  // centre. In vectors, to the same bits.
   void closest(const fem::SurfaceMesh &surface, const std::size_t *entry, const Vector3 *centre,
                const int *at, std::size_t count, SurfacePoints &points) const;
 
-  // The same by looking at every face: the oracle of the tests, and right for a single question.
+  // The same by a search over all faces: the reference of the tests, and suitable for a single query.
   SurfacePoint closest_of_all(const fem::SurfaceMesh &surface, const Vector3 &centre) const;
 
   std::size_t bytes() const {
@@ -126,7 +126,7 @@ private:
   void collect(const fem::SurfaceMesh &surface, const Vector3 &centre, double limit);
   SurfacePoint closest_listed(const fem::SurfaceMesh &surface, std::size_t k, const Vector3 &centre) const;
   bool is_nearest(std::size_t k, const Vector3 &centre, double distance_squared) const;
-  // On one face; true where the normal came with it. `moving`: null on surfaces that only shift.
+  // On one face; true where the normal was computed too. `moving`: null on surfaces that only shift.
   bool nearest_on(const fem::SurfaceMesh &surface, int face, const Vector3 &centre, const MovingFace *moving,
                   SurfacePoint &nearest) const;
   Vector3 from_corner(const fem::SurfaceMesh &surface, int face, const Vector3 &centre) const;

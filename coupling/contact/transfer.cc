@@ -12,7 +12,7 @@ Quad corner_velocities(const fem::SurfaceMesh &surface, int face) {
   return {at(0), at(1), at(2), at(3)};
 }
 
-// Corners about their mean.
+// Corners relative to their mean.
 Quad arms(const fem::SurfaceMesh &surface, int face) {
   Quad q = face_corners(surface, face, vertex_at(surface, surface.faces[static_cast<std::size_t>(face)][0]));
   const Vector3 mean = 0.25 * ((q[0] + q[1]) + (q[2] + q[3]));

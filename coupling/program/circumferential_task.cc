@@ -8,14 +8,14 @@ namespace platen::coupling {
 
 namespace {
 
-// The error is closed within so many wave transits where the specimen lags; where it falls, within so many:
-// what platens do reaches the middle within half a one.
+// The error is closed within this many wave transits where the specimen lags; where it fails, within this
+// many: an action of the platens reaches the middle within half a transit.
 constexpr double transits_of_approach = 20, transits_of_retreat = 1;
-// Of its length, by which a specimen is released in a transit at most.
+// Fraction of its length by which a specimen is unloaded in a transit at most.
 constexpr double most_released = 1e-4;
-// Circumferential over axial strain, of concrete and rock while they are elastic.
+// Circumferential over axial strain, of concrete and rock in the elastic range.
 constexpr double poisson_ratio = 0.2;
-// The speed follows what is asked within a share of a transit: platens make no waves.
+// The speed follows its target within a fraction of a transit: platens cause no waves.
 constexpr double transits_of_speed = 0.5;
 
 } // namespace

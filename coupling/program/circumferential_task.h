@@ -1,16 +1,16 @@
-// Axial platens that are led by how fast the specimen widens, as a brittle specimen is followed through its
-// fall in a stiff, quick machine: where it would run away the platens part (class II, Wawersik and Fairhurst
-// 1970).
+// Axial platens that are controlled by the circumferential strain rate, as a brittle specimen is controlled
+// through its failure in a stiff, fast machine: where the failure would be unstable the platens open (class
+// II, Wawersik and Fairhurst 1970).
 #pragma once
 
 #include "coupling/program/task.h"
 
 namespace platen::coupling {
 
-// The circumferential strain asked rises from what the stage finds at `rate`, smoothly within the ramp. The
-// platens close at  v = L (rate + e / tau) / g,  e what is asked less what is measured, tau some wave
-// transits, and g the circumferential over the axial strain of an elastic specimen; between -fastest and
-// fastest.
+// The prescribed circumferential strain rises from its value at the start of the stage at `rate`, smoothly
+// within the ramp. The platens close at  v = L (rate + e / tau) / g,  with e the prescribed less the measured
+// strain, tau some wave transits, and g the circumferential over the axial strain of an elastic specimen;
+// between -fastest and fastest.
 class CircumferentialTask : public Task {
 public:
   struct Parameters {
@@ -20,7 +20,7 @@ public:
     double transit = 0; // s, of a wave over the specimen, > 0
     double fastest = 0; // m/s, closure speed, > 0
   };
-  // Throws std::invalid_argument where the parameters are none.
+  // Throws std::invalid_argument where the parameters are not valid.
   explicit CircumferentialTask(const Parameters &parameters);
 
   void begin(const Measures &m, double begun, const Transfer &from) override;

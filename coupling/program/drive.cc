@@ -28,7 +28,7 @@ void Drive::ask(double rate, double ramp, const Measures &m, double begun) {
 
 void Drive::change_rate(double rate, const Measures &m) {
   if (!(rate > 0) || !is_asked()) throw std::invalid_argument("drive: a rate of nothing");
-  ask(std::copysign(rate, rate_), ramp_, m, begun_); // goes on from the speed that it has
+  ask(std::copysign(rate, rate_), ramp_, m, begun_); // continues from its present speed
 }
 
 double Drive::speed(const Measures &m) {
@@ -58,7 +58,7 @@ void Drive::describe(Archive &archive) {
   archive.version(1);
   archive("rate", rate_, "m/s");
   archive("ramp", ramp_, "s", at_least(0));
-  double sense = rate_ == 0 ? 0 : parameters_.sense; // which states kept that took it from the first rate
+  double sense = rate_ == 0 ? 0 : parameters_.sense; // older states took it from the first rate
   archive("first_direction", sense, "1", between(-1, 1));
   archive("begun", begun_, "s");
   archive("driven_until", until_, "s");
@@ -82,7 +82,7 @@ void RateTask::command(const Measures &m, Commands &asked) {
 
 std::optional<Controlled> RateTask::controlled(const Measures &m) const {
   const double passed = m.time() - begun_;
-  if (!(passed > 0) || std::isnan(path_)) return std::nullopt; // a state from before this was kept
+  if (!(passed > 0) || std::isnan(path_)) return std::nullopt; // a state from a version without the path
   Controlled c{"rate", side_, "m/s", drive_->platens().axis};
   c.asked = path_ / passed;
   c.reached = (drive_->platens().closure(m) - closure_found_) / passed;

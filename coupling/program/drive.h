@@ -1,5 +1,5 @@
-// Platens that close at a rate. What drives them goes on from one stage to the next: a change of the rate is
-// no jump, and unloading and reloading is one motion.
+// Platens that close at a rate. The drive continues from one stage to the next: a change of the rate is not a
+// jump, and unloading and reloading is one motion.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace platen::coupling {
 
-// From rest the speed starts smoothly within the ramp; from one rate to another it changes evenly, from a
+// From rest the speed starts smoothly within the ramp; from one rate to another it changes linearly, from a
 // rate to its opposite within the ramp. Compression positive.
 class Drive {
 public:
@@ -23,19 +23,19 @@ public:
   };
   explicit Drive(const Parameters &parameters);
 
-  // A stage that begins at `begun` (s) asks this closure rate (m/s, of all platens together, not 0), within
-  // `ramp` (s; 0: at once).
+  // Sets the closure rate (m/s, of all platens together, not 0) for a stage that begins at `begun` (s);
+  // reached within `ramp` (s; 0: at once).
   void ask(double rate, double ramp, const Measures &m, double begun);
-  // Between two steps: from the next on another size of the rate (m/s, positive), the way it goes now,
-  // reached evenly within the ramp. Throws std::invalid_argument where none was asked.
+  // Between two steps: sets another magnitude of the rate (m/s, positive) from the next step on, in the
+  // present direction, reached linearly within the ramp. Throws std::invalid_argument where no rate was set.
   void change_rate(double rate, const Measures &m);
   bool is_asked() const { return rate_ != 0; }
-  // Of the step that is being made: m/s, of each platen, inward.
+  // Of the current step: m/s, of each platen, inward.
   double speed(const Measures &m);
   void update(const Measures &m); // after forces
   const PlatensOfAxis &platens() const { return parameters_.platens; }
   double multiplier() const { return parameters_.rate_control ? parameters_.rate_control->multiplier : 1.0; }
-  // From a turn against the sense of the test until the strain of the turn has been reached again.
+  // From a reversal against the sense of the test until its strain has been reached again.
   bool is_cycling(const Measures &m) const;
   void describe(Archive &archive);
 
@@ -44,16 +44,16 @@ private:
 
   Parameters parameters_;
   std::optional<RateControl> rate_control_;
-  double rate_ = 0;               // m/s, asked now; 0: never asked
+  double rate_ = 0;               // m/s, prescribed now; 0: never set
   double ramp_ = 0;               // s
-  double begun_ = 0, until_ = -1; // s: of the start from rest; to which it has driven
-  double factor_ = 0;             // on |rate|, on its way to the sign of the rate
+  double begun_ = 0, until_ = -1; // s: of the start from rest; until which it has been computed
+  double factor_ = 0;             // on |rate|, changes towards the sign of the rate
   bool turned_ = false;
   double strain_of_turn_ = 0;
 };
 
-// The machine goes at the rate. The faces of the platens follow it where nothing yields between them: a
-// machine's spring, or platens that are elastic, take up a part.
+// The machine moves at the rate. The faces of the platens follow it where everything between them is rigid: a
+// machine's spring, or elastic platens, take up a part.
 class RateTask : public Task {
 public:
   RateTask(std::shared_ptr<Drive> drive, double rate, double ramp, std::string side = "axial")

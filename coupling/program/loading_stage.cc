@@ -83,7 +83,7 @@ double LoadingStage::progress(const Measures &m) const {
   return std::min(1.0, passed / expected);
 }
 
-// Where one platen is loaded on and its opposite is not, the stress of both is no stress of loading.
+// Where only one of two opposite platens loads further, the mean stress of both is not a stress of loading.
 Loads LoadingStage::loads(const Measures &m) const {
   const bool changing = parameters_.changes_sides && m.time() - begun() < end_.parameters().ramp;
   if (parameters_.consolidates || parameters_.parts || changing) return Loads::none;

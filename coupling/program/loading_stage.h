@@ -1,4 +1,4 @@
-// A loading stage: what each side is asked, and when it is over.
+// A loading stage: what is prescribed on each side, and when the stage ends.
 #pragma once
 
 #include <memory>
@@ -17,10 +17,10 @@ public:
     bool consolidates = false; // all sides alike, before the axial loading: strains count from its end
     double expected_seconds = 0;
     double sense = 1;                      // of the test: 1 compression, -1 tension
-    std::vector<std::size_t> loading = {}; // tasks that ask something of the axis that the test loads
-    bool parts = false;                    // platens part at a rate, on whatever side
-    bool changes_sides = false;            // other sides go to another stress or pressure within the ramp
-    int setting = 0;                       // how often they have been asked something else, with this
+    std::vector<std::size_t> loading = {}; // tasks that prescribe something along the loaded axis
+    bool parts = false;                    // platens open at a rate, on any side
+    bool changes_sides = false;            // other sides change to another stress or pressure within the ramp
+    int setting = 0;                       // number of changes on other sides, this one included
   };
   LoadingStage(Parameters parameters, std::vector<std::unique_ptr<Task>> tasks, StageEnd end);
 
@@ -31,7 +31,7 @@ public:
   void end(const Measures &m) override;
   void go_on() override;
   std::string ended_by() const override;
-  // One that ends by a stress of a side has asked no more than that of it.
+  // Where the stage ended by a stress of a side, that stress is the prescribed one.
   std::vector<Controlled> controls(const Measures &m) const override;
   double expected_seconds() const override { return parameters_.expected_seconds; }
   double progress(const Measures &m) const override;
@@ -45,19 +45,19 @@ protected:
   void on_begin(const Measures &m, const Transfer &from) override;
 
 private:
-  struct AtEnd { // of a task, as its Controlled has it
+  struct AtEnd { // of a task, as in Controlled
     bool told = false;
     double asked = 0, reached = 0, whole = 0;
     void describe(Archive &archive);
   };
-  int reached(const Measures &m) const; // as its end has it
+  int reached(const Measures &m) const; // as StageEnd::reached
   void forget_end();
 
   Parameters parameters_;
   std::vector<std::unique_ptr<Task>> tasks_;
   StageEnd end_;
   std::vector<AtEnd> at_end_;
-  int ended_by_ = 0; // as its end has it; 0: it goes on, or a checkpoint before there was this says nothing
+  int ended_by_ = 0; // as StageEnd::reached; 0: it continues, or an old checkpoint without this value
 };
 
 } // namespace platen::coupling

@@ -8,23 +8,23 @@ namespace platen::coupling {
 
 namespace {
 
-// At gain 1 a step moves the platen by at most this share of the path that closes the error, at gain 10 and
-// above by ten times as much: still below the limit of stability (2) and of overshoot (1/4, with the piston's
-// mass below).
+// At gain 1 a step moves the platen by at most this fraction of the displacement that closes the error, at
+// gain 10 and above by ten times as much: still below the limit of stability (2) and of overshoot (1/4, with
+// the piston's mass below).
 constexpr double share_per_step = 0.02, largest_share = 10 * share_per_step;
-// Share of the new velocity in a step: the piston's mass is c dt (1 - b)/b. It keeps dashpots in the
-// contacts, whose force follows the velocity at once, from making the velocity flicker.
+// Fraction of the new velocity in a step: the piston's mass is c dt (1 - b)/b. It prevents fast oscillations
+// of the velocity by dashpots in the contacts, whose force follows the velocity at once.
 constexpr double smoothing = 0.5;
 
-// Of the steepest secant: what is less is failure.
+// Of the steepest secant: a smaller slope is failure.
 constexpr double elastic_share = 0.8;
-// Of all bonds, broken in a transit: what is more is failure.
+// Of all bonds, broken in a transit: a larger fraction is failure.
 constexpr double breaking_share = 5e-5;
-// From slope to slope: in one transit stress rises by no more than platens press by inertia when they start.
+// Between two slopes: in one transit stress rises by no more than the inertial stress of starting platens.
 constexpr double transits_of_slope = 5;
-// How long the platens keep to their speed at first, and after a check that has seen failure.
+// Time for which the platens keep to their speed at first, and after a check that has found failure.
 constexpr double transits_of_care = 10;
-constexpr double slowing = 3; // times as quick as speeding up
+constexpr double slowing = 3; // times as fast as speeding up
 
 } // namespace
 

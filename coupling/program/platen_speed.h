@@ -1,9 +1,9 @@
-// A servo that moves a platen so that its reaction meets a wanted force: loading by force, confining plates,
-// seating.
+// A servo that moves a platen so that its reaction meets a prescribed force: loading by force, confining
+// plates, seating.
 //
 // It is the discrete form of a light piston with a dashpot, m dv/dt = F_wanted - F - c v. A piston takes
-// energy out of whatever it presses on and puts none in beyond the work of the wanted force, so it stays
-// stable against any specimen, cracking ones too; only the time step limits it, and c is chosen far above
+// energy from the body that it presses and adds none beyond the work of the prescribed force, so it stays
+// stable against any specimen, also one that cracks; only the time step limits it, and c is chosen far above
 // that limit.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace platen::coupling {
 
-// What the platen presses on, summed over the particles that it touches or may touch soon.
+// The resistance to the platen, summed over the particles that it touches or may touch soon.
 struct ServoLoad {
   double stiffness = 0; // N/m, sum of k_n
   double impedance = 0; // N s/m, sum of sqrt(k_n m): force per speed of an impact
@@ -21,8 +21,8 @@ struct ServoLoad {
 
 class Servo {
 public:
-  // At gain 1 the dashpot is this many times the impedance of the end particles, which is that of the
-  // specimen too: an impact at the speed that it allows adds 1 % to the wanted force, and waves do not ring.
+  // At gain 1 the dashpot is this multiple of the impedance of the end particles, which is that of the
+  // specimen too: an impact at the speed that it allows adds 1 % to the force, and waves do not oscillate.
   static constexpr double impedances = 100;
 
   struct Parameters {
@@ -33,8 +33,8 @@ public:
   explicit Servo(const Parameters &parameters);
 
   // Velocity (m/s) for the next step dt (s), positive towards the specimen. Forces in N, positive in
-  // compression: `reaction` is that of the last step. Without anything near (zero load) it closes in at the
-  // velocity limit.
+  // compression: `reaction` is that of the last step. Without any particle near (zero load) the platen
+  // approaches at the velocity limit.
   double velocity(double wanted, double reaction, const ServoLoad &load, double dt);
 
   double dashpot(const ServoLoad &load, double dt) const; // N s/m, error over velocity
@@ -46,27 +46,27 @@ private:
   double velocity_ = 0;
 };
 
-// How fast platens may go: at a multiple of the rate of the test while a specimen is elastic, at that rate
-// while it fails.
+// Speed of the platens: a multiple of the rate of the test while the specimen is elastic, that rate while it
+// fails.
 //
-// Elastic: stress goes with closure, up or down, nearly as steeply as the steepest secant from the start, and
-// hardly a bond breaks. Bonds are checked every wave transit and the slope every few; before the first ten
-// nothing is told, for platens that start press by the specimen's inertia. Speed rises within `ramp` and
-// falls in a third of it.
+// Elastic: stress follows closure, up or down, nearly as steeply as the steepest secant from the start, and
+// hardly a bond breaks. Bonds are checked every wave transit and the slope every few; nothing is decided
+// before the first ten, because platens that start press against the specimen's inertia. Speed rises within
+// `ramp` and falls in a third of it.
 class RateControl {
 public:
   struct Parameters {
     double multiplier = 1; // speed while elastic, over that while failing; >= 1
     double transit = 0;    // s, of a wave over the specimen
-    double ramp = 0;       // s, from one to the other
-    double bonds = 0;      // at the start
+    double ramp = 0;       // s, for a change between the two speeds
+    double bonds = 0;      // number at the start
   };
   // Throws std::invalid_argument where the multiplier is below one or a time is not positive.
   explicit RateControl(const Parameters &parameters);
 
   // Factor on the platens' speed for a step dt (s) that begins at `time`.
   double factor(double time, double dt);
-  // After a step. `stress` (Pa) and `closure` (1) of one sign; `broken`: bonds so far.
+  // After a step. `stress` (Pa) and `closure` (1) of one sign; `broken`: number of bonds so far.
   void update(double time, double stress, double closure, double broken);
 
   void describe(Archive &archive);
@@ -75,8 +75,8 @@ private:
   Parameters parameters_;
   double factor_ = 1;
   double careful_until_ = -1, next_check_ = 0, next_slope_ = 0; // s; below zero: not begun
-  double first_stress_ = 0, first_closure_ = 0;                 // when it began
-  double stress_ = 0, closure_ = 0, broken_ = 0;                // when they were last checked
+  double first_stress_ = 0, first_closure_ = 0;                 // at the beginning
+  double stress_ = 0, closure_ = 0, broken_ = 0;                // at the last check
   double steepest_ = 0;                                         // Pa
 };
 

@@ -12,7 +12,7 @@ PressureTask::PressureTask(const Parameters &parameters) : parameters_(parameter
 
 namespace {
 
-// Of what is smoothed once and twice; both lag behind a steady growth, the second twice as far.
+// Extrapolates from values smoothed once and twice: both lag behind a linear growth, the second twice as far.
 double ahead(double once, double twice) {
   return 2 * once - twice;
 }
@@ -76,7 +76,7 @@ std::optional<Controlled> HoldPressureTask::controlled(const Measures &m) const 
 }
 
 void PressureTask::describe(Archive &archive) {
-  const bool before = archive.version(2) < 2; // which followed with a lag
+  const bool before = archive.version(2) < 2; // version that followed with a lag
   archive("begun", begun_, "s");
   archive("found", found_, "Pa");
   archive("deviator", deviator_, "Pa");

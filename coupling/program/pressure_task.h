@@ -1,4 +1,4 @@
-// The pressure of a cell on the lateral surface: held, raised, led along a stress path or as a share of a
+// The pressure of a cell on the lateral surface: constant, raised, along a stress path or a fraction of a
 // stress.
 #pragma once
 
@@ -9,30 +9,30 @@
 
 namespace platen::coupling {
 
-// From the pressure that the stage finds to the asked one, smoothly within the ramp.
+// From the pressure at the start of the stage to the prescribed one, smoothly within the ramp.
 class PressureTask : public Task {
 public:
   struct Parameters {
-    std::size_t place = 0;             // of the boundary that presses
+    std::size_t place = 0;             // index of the boundary that presses
     std::string quantity = "pressure"; // in words; "share of axial", "stress path"
-    double value = 0;                  // Pa; 1 of `followed`
+    double value = 0;                  // Pa; or fraction of the stress of `followed`
     double ramp = 0;                   // s
-    // 1, what it gains at once, without a ramp, per deviator; -1/3: constant mean stress. A pressure that is
-    // found at another value was on its way along the path.
+    // 1, increase per deviator, at once, without a ramp; -1/3: constant mean stress. A pressure that differs
+    // at the start of the stage is taken as already on the path.
     double path = 0;
-    std::optional<PlatensOfAxis> followed; // whose stress it is a share of; none: a pressure
-    // s, over which a deviator or a stress is smoothed, > 0 where it follows one. What grows steadily is
+    std::optional<PlatensOfAxis> followed; // whose stress times a fraction it is; none: a pressure
+    // s, smoothing time of a deviator or a stress, > 0 where the pressure follows one. A linear increase is
     // followed without a lag: smoothed twice, f and g, the estimate is 2 f - g.
     double lag = 0;
   };
-  // Throws std::invalid_argument where the parameters are none.
+  // Throws std::invalid_argument where the parameters are not valid.
   explicit PressureTask(const Parameters &parameters);
 
   void begin(const Measures &m, double begun, const Transfer &from) override;
   void command(const Measures &m, Commands &asked) override;
   void update(const Measures &m) override;
   bool has_settled(const Measures &m) const override { return m.time() - begun_ >= parameters_.ramp; }
-  // What acts on the lateral surface. None of a pressure is a hundredth of what the stage found.
+  // The pressure on the lateral surface. Zero pressure is reached within a hundredth of that at the start.
   std::optional<Controlled> controlled(const Measures &m) const override;
   void describe(Archive &archive) override;
 
@@ -43,7 +43,7 @@ private:
   double deviator_again_ = 0, followed_again_ = 0; // Pa, smoothed again
 };
 
-// Holds what the stage finds.
+// Keeps the pressure at the start of the stage.
 class HoldPressureTask : public Task {
 public:
   explicit HoldPressureTask(std::size_t place) : place_(place) {}

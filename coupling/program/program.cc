@@ -50,7 +50,7 @@ void Program::command(Commands &asked) {
   last_ = asked;
 }
 
-// A stage that begins sees the same state as the one that has ended.
+// A stage that begins gets the same state as the one that has ended.
 void Program::update() {
   stages_[now_]->update(measures_);
   while (!finished_ && stages_[now_]->has_ended(measures_)) {

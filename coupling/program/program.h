@@ -1,5 +1,5 @@
-// Loading as a list of stages. A stage asks something of each boundary in every step, by what is measured,
-// until it is over; it touches no particle.
+// Loading as a list of stages. In every step a stage sends a command to each boundary, computed from
+// measures, until the stage ends; it does not access particles.
 #pragma once
 
 #include <array>
@@ -13,35 +13,34 @@
 
 namespace platen::coupling {
 
-// What a program sees of a test.
+// The measures of a test that a program reads.
 class Measures {
 public:
   virtual ~Measures() = default;
-  virtual double time() const = 0;                   // s; in a step that of its end
+  virtual double time() const = 0;                   // s; during a step, the time at its end
   virtual double time_step() const = 0;              // s
   virtual double closure_strain() const = 0;         // of the platens, over the height
   virtual double closure_strain(int axis) const = 0; // 0 x, 1 y, 2 z, over the length; NaN without platens
-  virtual double circumferential_strain() const = 0; // of the lateral surface, where it widens positive
+  virtual double circumferential_strain() const = 0; // of the lateral surface, positive where it expands
   virtual double axial_stress() const = 0;           // Pa, mean of both platens, compression positive
   virtual double lateral_pressure() const = 0;       // Pa
   virtual double broken_bonds() const = 0;           // since the start
-  // Of a boundary by its place in the experiment's list: N, of the specimen on it; N, with which a platen
-  // presses; the way that it presses; what it pushes against.
+  // Of a boundary by its index in the experiment's list: N, force of the specimen on it; N, load with which a
+  // platen presses; its direction of pressing; the resistance to it.
   virtual Vector3 force(std::size_t boundary) const = 0;
   virtual double load(std::size_t boundary) const = 0;
-  virtual double moved_inward(
-      std::size_t boundary) const = 0; // m, that the face of a platen has moved inward
+  virtual double moved_inward(std::size_t boundary) const = 0; // m, displacement of a platen's face inward
   virtual Vector3 inward(std::size_t boundary) const = 0;
   virtual ServoLoad servo_load(std::size_t boundary) const = 0;
 };
 
-// Places of a test's boundaries in the experiment's list.
+// Indices of a test's boundaries in the experiment's list.
 struct Sides {
   std::size_t bottom = 0, top = 1;
   std::optional<std::size_t> left, right, front, back; // platens of a box
-  std::optional<std::size_t> lateral;                  // what presses the lateral surface
+  std::optional<std::size_t> lateral;                  // the boundary that presses the lateral surface
 };
-// What is asked of each boundary of an experiment, in the order of its list.
+// The command to each boundary of an experiment, in the order of its list.
 using Commands = std::vector<Command>;
 
 // 0 to 1 without a jump in the rate, for x from 0 to 1.
@@ -51,61 +50,61 @@ inline double smooth_start(double x) {
 
 // From one stage to the next.
 struct Transfer {
-  Commands asked;               // in the step that has just ended; empty at the start of a test
+  Commands asked;               // commands of the step that has just ended; empty at the start of a test
   std::array<double, 3> zero{}; // closure strains along x, y, z from which strains count
 };
 
-// What a stage asks of a side and what is reached; compression and closing positive.
+// The prescribed and the reached value of a side in a stage; compression and closing positive.
 struct Controlled {
   static constexpr const char *pascal = "Pa";
-  static constexpr int around = 3; // of what presses the lateral surface
+  static constexpr int around = 3; // the axis of a lateral surface
 
   std::string quantity, side; // "stress", "lateral x"
   std::string unit;           // "Pa"; of rates "m/s" and "1/s", which are means over the stage
   int axis = 2;               // 0 x, 1 y, 2 z, or around
-  bool held = false;          // it is asked to stay as it was found
+  bool held = false;          // prescribed to stay as at the start of the stage
   double asked = 0, reached = 0;
-  double whole = 0; // what a hundredth is counted of: the size of what is asked, unless that is nothing
+  double whole = 0; // reference of the tolerance of 1 %: the magnitude of `asked`, unless that is zero
 
-  // Within a hundredth. What is not finite is not met.
+  // Within 1 %; false where a value is not finite.
   bool is_met() const;
 };
 
-// Whether a stage loads the axis of the test on, in the sense of the test, and by what: a stress that falls
-// where it is not loaded on falls by command, and one that stays while a stress is asked stays by command.
+// How a stage increases the load along the loaded axis in the sense of the test. Otherwise (none) a falling
+// stress falls by command, and a stress that is constant under stress control is constant by command.
 enum class Loads { none, by_closure, by_stress, by_widening };
 
 class Stage {
 public:
   virtual ~Stage() = default;
   virtual std::string name() const = 0;
-  // Once, before its first command; the first stage of a test has begun at 0 s with no closure.
+  // Called once, before its first command; the first stage of a test has begun at 0 s with no closure.
   void begin(const Measures &m, const Transfer &from, bool first);
-  // Of a step whose particles have drifted, before forces. Finds commands that ask for nothing.
+  // Called after the drift of the particles, before forces. All commands are zero on entry.
   virtual void command(const Measures &m, Commands &asked) = 0;
   // After forces.
   virtual void update(const Measures &) {}
   virtual bool has_ended(const Measures &m) const = 0;
-  // Once, when it has ended.
+  // Called once, when the stage has ended.
   virtual void end(const Measures &) {}
-  // Of one that had ended, by an earlier end than it has now: forgets that.
+  // For a stage that had ended by an earlier end than it has now: cancels the end.
   virtual void go_on() {}
-  // Of one that has ended, where it says so: by what, "strain", "settled" or `not_settled`: its time was over
-  // and its stresses were not all borne.
+  // For a stage that has ended: the reason, if known, "strain", "settled" or `not_settled`: its time was over
+  // and not all of its stresses were reached.
   static constexpr const char *not_settled = "not settled";
   virtual std::string ended_by() const { return ""; }
-  // Of one that has begun: as it is now, or was at its end.
+  // For a stage that has begun: present values, or those at its end.
   virtual std::vector<Controlled> controls(const Measures &) const { return {}; }
 
-  virtual double expected_seconds() const = 0;            // until it ends, as far as that is known
+  virtual double expected_seconds() const = 0;            // duration, as far as it is known
   virtual double progress(const Measures &m) const = 0;   // 0 ... 1
-  virtual double fastest() const { return 0; }            // m/s, closure speed that it may ask for
+  virtual double fastest() const { return 0; }            // m/s, largest closure speed that it may command
   virtual bool is_consolidation() const { return false; } // all sides alike, before the axial loading
-  // From a turn of the platens until the strain of the turn has been reached again.
+  // From a reversal of the platens until its strain has been reached again.
   virtual bool is_cycling(const Measures &) const { return false; }
-  // Of the axis that the test loads. A stage of one's own that unloads says `none`.
+  // For the loaded axis. A user-defined stage that unloads returns `none`.
   virtual Loads loads(const Measures &) const { return Loads::by_closure; }
-  // Counts how often other sides have been asked something else: stresses compare within one number.
+  // Number of changes of what is prescribed on other sides: stresses are comparable within one number.
   virtual int setting() const { return 0; }
 
   double begun() const { return begun_; } // s
@@ -124,31 +123,31 @@ class Drive;
 // The stages of a test, one after the other.
 class Program {
 public:
-  // At least one stage; drives that go on from one to the next. `measures` outlives the program.
+  // At least one stage; drives that continue from one stage to the next. `measures` outlives the program.
   Program(const Measures &measures, std::vector<std::unique_ptr<Stage>> stages,
           std::vector<std::shared_ptr<Drive>> drives = {});
   ~Program();
 
-  // For a step whose particles have drifted: what is asked of each boundary.
+  // Called after the drift of the particles: sets the command of each boundary.
   void command(Commands &asked);
-  // After forces: goes on to the next stage where one is over. The last one goes on asking when it is over.
+  // After forces: goes to the next stage where one has ended. The last one continues after its end.
   void update();
-  // A program that had finished, and was read with another end of its last stage, goes on where that is not
-  // yet met. It is asked nothing else than if it had not finished in between.
+  // A program that had finished, and was read with another end of its last stage, continues where that end is
+  // not yet met. Its commands are the same as if it had not finished in between.
   void go_on();
 
-  // The platens that are driven close at another rate (m/s, positive) from the next step on, the way they go
-  // now, until a stage asks anew. Throws std::invalid_argument where nothing, or more than one pair of
-  // platens, is driven.
+  // The driven platens close at another rate (m/s, positive) from the next step on, in the present direction,
+  // until a stage sets a new rate. Throws std::invalid_argument where no pair of platens, or more than one,
+  // is driven.
   void change_rate(double rate);
 
   bool finished() const { return finished_; }
   const Stage &stage() const { return *stages_[now_]; }
   const Stage &stage(std::size_t number) const { return *stages_[number]; }
-  double fastest() const; // m/s, closure speed of any stage
+  double fastest() const; // m/s, largest closure speed of any stage
   double expected_seconds() const;
   double progress() const; // 0 ... 1, of all stages by their expected times
-  // Closure strain since the end of a consolidation; all of it without one, none while it lasts.
+  // Closure strain since the end of a consolidation; since the start without one; zero during it.
   double axial_closure() const;
   bool in_axial_stage() const { return finished_ || !stage().is_consolidation(); }
   bool is_cycling() const;
@@ -156,10 +155,11 @@ public:
   std::size_t stage_number() const { return now_; } // from 0
   std::size_t stage_count() const { return stages_.size(); }
   std::size_t stages_ended() const { return now_ + (finished_ ? 1 : 0); }
-  // What a stage that has begun asks and what is reached: now, or at its end. Empty of one that had ended in
-  // a state before this was told.
+  // Prescribed and reached values of a stage that has begun: now, or at its end. Empty for a stage that had
+  // ended in a state from an older version without them.
   std::vector<Controlled> controls(std::size_t number) const;
-  // Which stage was on at a time (s) up to now, from 0; at its end that one, not the next.
+  // Number of the stage that was active at a time (s) up to now, from 0; at a stage's end that one, not the
+  // next.
   std::size_t stage_at(double time) const;
   void describe(Archive &archive);
 
@@ -171,9 +171,9 @@ private:
   std::vector<std::shared_ptr<Drive>> drives_;
   std::size_t now_ = 0;
   bool begun_ = false, finished_ = false;
-  bool consolidated_ = false;    // the zero of strains is found
+  bool consolidated_ = false;    // the zero of strains is known
   std::array<double, 3> zero_{}; // closure strains at the end of a consolidation
-  Commands last_;                // of the step that is being made
+  Commands last_;                // of the current step
 };
 
 } // namespace platen::coupling

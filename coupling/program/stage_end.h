@@ -1,4 +1,4 @@
-// When a loading stage is over.
+// The end of a loading stage.
 #pragma once
 
 #include <limits>
@@ -8,24 +8,24 @@
 
 namespace platen::coupling {
 
-// One of the things that end a stage.
+// A condition that ends a stage.
 struct Until {
   enum class Reached {
     strain,         // closure strain of the axis since the end of consolidation
     strain_change,  // since the stage began, of either sign
-    stress,         // Pa, from below or above, as the stage finds it
-    share_of_peak,  // of the largest stress of this stage, once the ramp is over: the stress has fallen to it
-    share_of_start, // of the stress that the stage finds: it has fallen to it
+    stress,         // Pa, reached from below or above, depending on the stress at the start of the stage
+    share_of_peak,  // of the largest stress of this stage, after the ramp: the stress has fallen to it
+    share_of_start, // of the stress at the start of the stage: it has fallen to it
     circumferential_strain,
     time, // s, since the stage began
     settled
   };
   Reached what = Reached::settled;
   double value = 0;
-  PlatensOfAxis of; // whose strain and stress
+  PlatensOfAxis of; // the platens of that strain or stress
   // Of a strain: 1 where it rises (in compression, or in the sense of a tension test), -1 where it falls.
   double direction = 1;
-  bool less_pressure = false; // stresses less the cell's pressure, where they are shares
+  bool less_pressure = false; // stress fractions use stresses less the cell's pressure
 };
 
 // "strain change", "share of peak"
@@ -36,15 +36,15 @@ public:
   struct Parameters {
     std::vector<Until> any;
     double ramp = 0;  // s, of the stage
-    double least = 0; // s, how long it goes on at least to have settled
-    double latest = std::numeric_limits<double>::infinity(); // s, at which it is over anyway
+    double least = 0; // s, shortest time after which it may count as settled
+    double latest = std::numeric_limits<double>::infinity(); // s, at which the stage ends in any case
   };
   explicit StageEnd(Parameters parameters);
 
   void begin(const Measures &m, const Transfer &from);
   void update(const Measures &m, double passed);
-  // Which of `any` is met, from 1; `too_late` where none is though the latest time has come; 0: it goes on.
-  // `passed`: s since the stage began; `settled`: all tasks have.
+  // The condition in `any` that is met, from 1; `too_late` where none is met at the latest time; 0: it
+  // continues. `passed`: s since the stage began; `settled`: all tasks have settled.
   static constexpr int too_late = -1;
   int reached(const Measures &m, double passed, bool settled) const;
   bool needs_settled() const;

@@ -9,7 +9,7 @@ namespace platen::coupling {
 
 namespace {
 
-constexpr double settled_share = 0.01; // of the stress that is asked
+constexpr double settled_share = 0.01; // of the prescribed stress
 
 bool share_a_platen(const PlatensOfAxis &one, const PlatensOfAxis &other) {
   return std::any_of(one.places.begin(), one.places.end(), [&](std::size_t place) {
@@ -107,7 +107,7 @@ std::optional<Controlled> StressTask::controlled(const Measures &m) const {
   return c;
 }
 
-// A stress that is asked again, within what counts as reached, is no lower one.
+// A stress that is prescribed again, within the tolerance of a reached one, is not a lower one.
 Loads StressTask::loads(double sense) const {
   const bool asks = !parameters_.followed && sense > 0 && parameters_.value > 0;
   return asks && parameters_.value >= (1 - settled_share) * stress_found_ ? Loads::by_stress : Loads::none;
@@ -120,7 +120,7 @@ void StressTask::describe(Archive &archive) {
   archive("speed_found", speed_found_, "m/s");
   archive("followed", followed_, "Pa");
   archive("missing", missing_, "Pa");
-  if (version < 2) { // the stage has them now
+  if (version < 2) { // now stored in the stage
     double former = 0;
     for (const char *name : {"asked_at_end", "borne_at_end"})
       archive(name, former, "Pa", 0.0, or_nan());

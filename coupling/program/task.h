@@ -1,4 +1,4 @@
-// What one side of a specimen, or two opposite ones, are asked during a loading stage.
+// What is prescribed on one side of a specimen, or on two opposite sides, during a loading stage.
 #pragma once
 
 #include <algorithm>
@@ -11,16 +11,16 @@
 
 namespace platen::coupling {
 
-// One platen, or two opposite ones that move alike, by their places in the experiment's list.
+// One platen, or two opposite ones that move alike, by their indices in the experiment's list.
 struct PlatensOfAxis {
   std::vector<std::size_t> places;
   double area = 0;   // m^2, of the specimen's face at each
   double length = 0; // m, of the specimen between two opposite faces
   int axis = 2;      // 0 x, 1 y, 2 z
 
-  double stress(const Measures &m) const;                       // Pa, mean, compression positive
-  double closure(const Measures &m) const;                      // m, of all of them together
-  double speed(const Measures &m, const Commands &asked) const; // m/s, mean, inward positive; 0 where none is
+  double stress(const Measures &m) const;                             // Pa, mean, compression positive
+  double closure(const Measures &m) const;                            // m, sum over all of them
+  double speed(const Measures &m, const Commands &asked) const;       // m/s, mean, inward positive; else 0
   void move(const Measures &m, double inward, Commands &asked) const; // m/s, each
 };
 
@@ -28,7 +28,7 @@ inline double start_of_ramp(double passed, double ramp) {
   return ramp > 0 ? smooth_start(passed / ramp) : 1.0;
 }
 
-// A number that follows another with a lag (s), by a step dt (s).
+// First-order lag (s) of a number behind another, by a step dt (s).
 inline void follow(double &smoothed, double now, double dt, double lag) {
   smoothed += std::min(1.0, dt / lag) * (now - smoothed);
 }
@@ -36,23 +36,23 @@ inline void follow(double &smoothed, double now, double dt, double lag) {
 class Task {
 public:
   virtual ~Task() = default;
-  // Once, when its stage begins, `begun` in s.
+  // Called once, when its stage begins, `begun` in s.
   virtual void begin(const Measures &m, double begun, const Transfer &from) = 0;
-  // Of a step whose particles have drifted, before forces. Finds commands that ask for nothing.
+  // Called after the drift of the particles, before forces. All commands are zero on entry.
   virtual void command(const Measures &m, Commands &asked) = 0;
   // After forces.
   virtual void update(const Measures &) {}
-  // The specimen bears what is asked.
+  // Whether the specimen carries what is prescribed.
   virtual bool has_settled(const Measures &) const { return true; }
-  // What it asks of its side in the end and what is reached now; none of what is only held in its place.
+  // The final prescribed value of its side and the present one; none where the side only keeps its position.
   virtual std::optional<Controlled> controlled(const Measures &) const { return std::nullopt; }
-  virtual double fastest() const { return 0; } // m/s, closure speed that it may ask for
-  // Whether it loads its axis on; sense: 1 in compression, -1 in tension.
+  virtual double fastest() const { return 0; } // m/s, largest closure speed that it may command
+  // Whether it increases the load on its axis; sense: 1 in compression, -1 in tension.
   virtual Loads loads(double /*sense*/) const { return Loads::none; }
   virtual void describe(Archive &archive) = 0;
 };
 
-// Brings platens to rest within `ramp` (s), from the speed that they are found at.
+// Brings platens to rest within `ramp` (s), from their speed at the start of the stage.
 class HoldTask : public Task {
 public:
   HoldTask(PlatensOfAxis platens, double ramp) : platens_(std::move(platens)), ramp_(ramp) {}
