@@ -15,7 +15,7 @@ namespace platen::apps {
 struct BondRun : TestFigures {
   double modulus = 0, stiffness_ratio = 0; // Pa, 1
   PathResult path;
-  CohesiveResult cohesive; // only of a bond that remembers
+  CohesiveResult cohesive;  // only of a bond that remembers
   double fracture_work = 0; // J
   double bond_area = 0;     // m^2
 

@@ -37,13 +37,13 @@ Scene yielding_scene() {
 }
 
 const std::vector<FreeParameter> eight{FreeParameter::modulus,
-                              FreeParameter::stiffness_ratio,
-                              FreeParameter::tensile_strength,
-                              FreeParameter::shear_strength,
-                              FreeParameter::moment_contribution,
-                              FreeParameter::friction_angle,
-                              FreeParameter::compression_limits,
-                              FreeParameter::contact_friction};
+                                       FreeParameter::stiffness_ratio,
+                                       FreeParameter::tensile_strength,
+                                       FreeParameter::shear_strength,
+                                       FreeParameter::moment_contribution,
+                                       FreeParameter::friction_angle,
+                                       FreeParameter::compression_limits,
+                                       FreeParameter::contact_friction};
 const std::vector<double> truth{48e9, 0.25, 9e6, 36e6, 0.22, 26.565 * degree, 1.2, 0.35};
 // Exponents of each target (row) with these parameters, in the way that a concrete goes.
 constexpr double exponents[8][8] = {{1, 0.2, 0, 0, 0, 0, 0, 0},
@@ -344,12 +344,13 @@ TEST(ManyTargets, parameters_that_act_as_one_are_told) {
   scene.own<Calibrate>().free = {FreeParameter::compression_limits, FreeParameter::contact_friction};
   scene.own<Calibrate>().differences = true;
   const Goals goals(scene);
-  const Found f =
-      search(scene, goals, test_of(goals, [](const Goal &goal, const Choice &c) {
-               return goal.target.value *
-                      std::pow(c[FreeParameter::compression_limits] * c[FreeParameter::contact_friction] / 0.6, 0.5);
-             }));
-  EXPECT_NEAR(f.choice[FreeParameter::compression_limits] * f.choice[FreeParameter::contact_friction], 0.6, 0.03);
+  const Found f = search(
+      scene, goals, test_of(goals, [](const Goal &goal, const Choice &c) {
+        return goal.target.value *
+               std::pow(c[FreeParameter::compression_limits] * c[FreeParameter::contact_friction] / 0.6, 0.5);
+      }));
+  EXPECT_NEAR(f.choice[FreeParameter::compression_limits] * f.choice[FreeParameter::contact_friction], 0.6,
+              0.03);
   const Analysis a = analyse(goals, scene.own<Calibrate>().tolerance, f.sensitivities);
   EXPECT_LT(a.correlations(0, 1), -0.99);
   ASSERT_EQ(a.correlated.size(), 1u);
@@ -370,12 +371,14 @@ TEST(ManyTargets, what_cannot_be_met_together_is_told_with_what_pulls) {
   scene.own<Calibrate>().free = {FreeParameter::tensile_strength, FreeParameter::shear_strength};
   scene.own<Calibrate>().differences = true;
   const Goals goals(scene);
-  const Found f = search(scene, goals, test_of(goals, [](const Goal &goal, const Choice &c) {
-                           const bool tension = goal.target.kind == TargetKind::tension;
-                           return tension ? 0.5 * c[FreeParameter::tensile_strength] : c[FreeParameter::shear_strength];
-                         }));
+  const Found f =
+      search(scene, goals, test_of(goals, [](const Goal &goal, const Choice &c) {
+               const bool tension = goal.target.kind == TargetKind::tension;
+               return tension ? 0.5 * c[FreeParameter::tensile_strength] : c[FreeParameter::shear_strength];
+             }));
   // Least squares of logarithms over tolerances: weights 1 and 3.
-  EXPECT_NEAR(f.choice[FreeParameter::shear_strength], std::exp(0.25 * std::log(40e6) + 0.75 * std::log(50e6)), 2e5);
+  EXPECT_NEAR(f.choice[FreeParameter::shear_strength],
+              std::exp(0.25 * std::log(40e6) + 0.75 * std::log(50e6)), 2e5);
   EXPECT_NEAR(f.choice[FreeParameter::tensile_strength], 9e6, 0.02 * 9e6);
   const std::vector<std::string> lines = missed(goals, f);
   ASSERT_EQ(lines.size(), 2u);
@@ -470,8 +473,9 @@ TEST_F(CurveFile, a_search_recovers_what_a_curve_was_made_of) {
     for (const Choice &c : choices) {
       std::vector<TrialResult> results(goals.tests().size());
       for (std::size_t point = 1; point <= curve_points; ++point)
-        results[goals.all()[0].test].curve.push_back(
-            stress(c[FreeParameter::modulus], 10 * c[FreeParameter::tensile_strength], 3e-3 * double(point) / curve_points));
+        results[goals.all()[0].test].curve.push_back(stress(c[FreeParameter::modulus],
+                                                            10 * c[FreeParameter::tensile_strength],
+                                                            3e-3 * double(point) / curve_points));
       all.push_back(goals.measured(results));
     }
     return all;

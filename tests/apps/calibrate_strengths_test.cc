@@ -48,7 +48,8 @@ struct StandIn {
         tensile * std::exp(2.34 - 0.62 / ratio - by_moments * (c[FreeParameter::moment_contribution] - 0.3) +
                            0.2 * (c[FreeParameter::friction_angle] - 45 * degree) / ratio);
     if (kind == TargetKind::tension) return tensile;
-    return kind == TargetKind::strength ? compressive : compressive + slope(c[FreeParameter::friction_angle]) * 4.5e6;
+    return kind == TargetKind::strength ? compressive
+                                        : compressive + slope(c[FreeParameter::friction_angle]) * 4.5e6;
   }
   double operator()(const Goal &goal, const Choice &c) {
     std::normal_distribution<double> normal;
