@@ -46,6 +46,25 @@ bool two_cones(const DeadZone &one, const DeadZone &other) {
   return (one.is_cone() && (other.is_cone() || dome(other))) || (dome(one) && other.is_cone());
 }
 
+// Cones by damage, which states before version 3 contain: they are read and dropped.
+struct FormerCone {
+  void describe(Archive &archive) const {
+    archive.version(1);
+    std::int64_t verdict = 0;
+    archive("verdict", verdict, "1", any_value());
+    double number = 0;
+    for (const char *share : {"spheres", "volume_fraction", "overlap", "roundness", "confidence"})
+      archive(share, number, "1", any_value());
+    for (const char *length : {"height", "apex_depth"})
+      archive(length, number, "m", any_value());
+    for (const char *angle : {"half_angle", "tilt"})
+      archive(angle, number, "rad", any_value());
+    Vector3 vector;
+    archive("apex", vector, "m", any_value());
+    archive("axis", vector, "1", any_value());
+  }
+};
+
 } // namespace
 
 Specimen specimen_before(const Particles &p, const Shape &shape) {
@@ -89,7 +108,13 @@ FailureVerdict judge_failure(const FailureMeasures &m) {
 }
 
 void FailureMeasures::describe(Archive &archive) {
-  const bool before_motion = archive.version(3) < 2; // older ones also contain cones by damage
+  const int version = archive.version(3);
+  const bool before_motion = version < 2;
+  if (version < 3) {
+    FormerCone bottom, top;
+    archive.part("cone_bottom", bottom);
+    archive.part("cone_top", top);
+  }
   archive("damage_top", damage.end_top, "1", any_value());
   archive("damage_bottom", damage.end_bottom, "1", any_value());
   archive("damage_middle", damage.middle, "1", any_value());

@@ -8,6 +8,7 @@
 #include "dem/measure/cone.h"
 #include "dem/measure/failure_pattern.h"
 #include "tests/dem/motions.h"
+#include "tests/same_state.h"
 
 namespace platen::dem {
 namespace {
@@ -121,6 +122,45 @@ TEST(failure_pattern, an_end_that_did_not_spread_is_not_crushed) {
   EXPECT_EQ(judge_failure(m).pattern, FailurePattern::crushing);
   m.end_spread = std::numeric_limits<double>::quiet_NaN(); // no skin left
   EXPECT_EQ(judge_failure(m).pattern, FailurePattern::crushing);
+}
+
+// As version 2 wrote it: the same, and what a sound piece on each platen was fitted by.
+struct MeasuresOfVersionTwo {
+  struct Cone {
+    void describe(Archive &archive) {
+      archive.version(1);
+      std::int64_t verdict = 3;
+      double number = .5;
+      Vector3 vector{1, 2, 3};
+      archive("verdict", verdict);
+      for (const char *name : {"spheres", "volume_fraction", "overlap", "roundness", "confidence"})
+        archive(name, number);
+      for (const char *name : {"height", "apex_depth"})
+        archive(name, number, "m");
+      for (const char *name : {"half_angle", "tilt"})
+        archive(name, number, "rad");
+      archive("apex", vector, "m");
+      archive("axis", vector);
+    }
+  };
+  FailureMeasures measures;
+  void describe(Archive &archive) {
+    measures.describe(archive);
+    Cone bottom, top;
+    archive.part("cone_bottom", bottom);
+    archive.part("cone_top", top);
+  }
+};
+
+TEST(failure_pattern, states_with_cones_by_damage_are_read) {
+  MeasuresOfVersionTwo old;
+  old.measures.damage = {.45, .4, .55};
+  old.measures.broken_share = .5;
+  const State state = with_rows<std::int32_t>(state_of(old), "state/version", {2});
+  FailureMeasures read;
+  set_state(read, state);
+  EXPECT_TRUE(same_state(old.measures, read));
+  EXPECT_THROW(set_state(read, without(state, "cone_top")), StateError);
 }
 
 } // namespace
