@@ -18,7 +18,7 @@ import subprocess
 import sys
 import time
 
-COPIED = ["CMakeLists.txt", "cmake", "debian", "base", "dem", "dist", "fem", "coupling", "apps"]
+COPIED = ["CMakeLists.txt", "cmake", "debian", "base", "dem", "dist", "fem", "coupling", "apps", "python"]
 # (file, text, text in its place): the declaration of the key, its use, the column.
 KEY = [
     ("coupling/experiment.h", "  double fixed_step = 0; // s; 0: safety times the limit\n",
