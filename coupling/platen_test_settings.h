@@ -115,7 +115,7 @@ struct LoadingSettings {
   bool servo = false; // the top platen holds a stress, no faster than `rate`, against a bottom platen at rest
   double top_stress = 0; // Pa, compression positive; reached smoothly over the ramp
   double hold = 0;       // s, duration of that stress after the ramp, or of a cell's pressure alone
-  double servo_gain = 0; // 0.1 ... 10 as in Servo; 0: 5 for top_stress, 10 in a cell or on a spring, 40 else
+  double servo_gain = 0; // 0.1 ... 10; 0: 5 for top_stress, 10 in a cell or on a spring, 40 else
   std::optional<CellSettings> cell;
   bool wall = false;          // around the specimen, stiff and frictionless
   double wall_stiffness = 10; // multiple of the mean bond's
@@ -279,8 +279,8 @@ void LoadingSettings::describe(Visitor &&v, Self &p) {
   v("top_stress", p.top_stress, "Pa", at_least(0), "Pressing stress.");
   v("servo_gain", p.servo_gain, "1", between(0, 10),
     "Of the servo that holds the top platen at its stress or, while a cell's pressure rises, at that "
-    "pressure: 0.1 is slow, 10 quick; 0: chosen by the app (5; in a cell 10; of stages between platens alone "
-    "40).");
+    "pressure: 0.1 is slow, 10 quick; 0: chosen by the app (5; in a cell or on a machine's spring 10; of "
+    "stages between platens alone 40).");
   v("wall_stiffness", p.wall_stiffness, "1", above_up_to(0, 1000),
     "Of each sphere at the wall, as a multiple of the mean bond's.");
   v("unload_at", p.unload_at, "1", above_up_to(0, 1),

@@ -132,6 +132,7 @@ StudyPlan plan_vary(const Scene &scene) {
         if (one.path != "Loading/Confining pressure")
           all.back().envelope += (before.envelope.empty() ? "" : "_") + name;
         all.back().labels.push_back(number_of(value, unit));
+        all.back().words.push_back(std::isnan(all.back().labels.back()) ? value : "");
         all.back().overrides.push_back(one.path + " = " + value);
       }
     plan.cases = std::move(all);

@@ -21,12 +21,19 @@ struct StudyCase {
   std::string name;                   // of folders and tables: "sphere_radius_1_mm"
   std::vector<double> labels;         // one for each column of StudyPlan::varied, SI; NaN where it has none
   std::vector<std::string> overrides; // "Section/Key = value"
+  std::vector<std::string> words = {}; // by label: where it is a word instead of a number; else ""
   std::string surface = {};           // what the platens are, in words; studies of platens
   std::vector<std::string> packings = {}; // by seed: packing_name of its specimen; "" of one from a file
   std::string scene = {};                 // that its entries change; "": the study's
   std::string envelope = {};              // its name but for its pressure: what one failure envelope is of
   double seconds = 0; // of a run, counted from its scene (apps/run/needs.h); 0 where that cannot be
 };
+
+// f of a label: of its word, or of its number.
+template <class F>
+auto with_label(const StudyCase &of, std::size_t label, const F &f) {
+  return label < of.words.size() && !of.words[label].empty() ? f(of.words[label]) : f(of.labels[label]);
+}
 
 // What trades accuracy for time, turned alone; all else is as the scene has it.
 struct StudiedParameter {

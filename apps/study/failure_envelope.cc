@@ -196,7 +196,7 @@ void write_envelopes(const std::filesystem::path &csv, const StudyPlan &plan,
     std::vector<CsvCell> cells{envelope.name};
     if (of_platens(plan.kind)) cells.emplace_back(first.surface);
     for (std::size_t k = 0; k < plan.varied.size(); ++k)
-      if (k != place) cells.emplace_back(first.labels[k]);
+      if (k != place) cells.push_back(with_label(first, k, [](const auto &label) { return CsvCell(label); }));
     cells.emplace_back(envelope.line.runs);
     for (const auto &[key, member] : numbers)
       cells.emplace_back(envelope.line.*member);
@@ -221,7 +221,8 @@ Json json_of(const StudyPlan &plan, const std::vector<FailureEnvelope> &envelope
       one["cases"].push_back(plan.cases[c].name);
     if (of_platens(plan.kind)) one["surface"] = first.surface;
     for (std::size_t k = 0; k < plan.varied.size(); ++k)
-      if (plan.varied[k] != pressure_column) one[plan.varied[k]] = first.labels[k];
+      if (plan.varied[k] != pressure_column)
+        one[plan.varied[k]] = with_label(first, k, [](const auto &label) { return Json(label); });
     add(envelope.line, one);
     for (std::size_t seed = 0; seed < envelope.packings.size(); ++seed) {
       one["packings"].push_back({{"seed", plan.seeds[seed]}});

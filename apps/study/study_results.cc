@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "apps/output/sha256.h"
 #include "apps/run/app_output.h"
 #include "apps/run/problem_setup.h"
@@ -39,7 +41,9 @@ Json tell_outcome(const Scene &scene, StudyKind kind, const std::string &head, c
     log.warning("{}: {}, {}", head, word(outcome), outcome.reason);
     return named(run.name, unchecked_expectations(scene, std::string("the run is ") + word(outcome)));
   }
-  log.info("{}: {:.4g} MPa, {:.0f} s{}", head, 1e-6 * number_in(outcome.summary, "strength_pa"),
+  const double strength = number_in(outcome.summary, "strength_pa");
+  log.info("{}: {}, {:.0f} s{}", head,
+           std::isnan(strength) ? "no strength" : fmt::format("{:.4g} MPa", 1e-6 * strength),
            number_in(outcome.summary, "wall_seconds"), outcome.kept ? ", kept" : "");
   const bool compared = of_platens(kind) || kind == StudyKind::accuracy || kind == StudyKind::target;
   if (compared && !StudyTables::peaked(outcome.summary))

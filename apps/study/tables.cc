@@ -134,7 +134,8 @@ void StudyTables::add(const TestRun &run, const RunOutcome &outcome) {
   OfCase &sums = cases_[run.of];
   std::vector<CsvCell> cells{word(plan_.kind), of.name};
   if (of_platens(plan_.kind)) cells.emplace_back(of.surface);
-  cells.insert(cells.end(), of.labels.begin(), of.labels.end());
+  for (std::size_t k = 0; k < of.labels.size(); ++k)
+    cells.push_back(with_label(of, k, [](const auto &label) { return CsvCell(label); }));
   cells.insert(cells.end(), {run.seed, word(outcome)});
   std::vector<CsvCell> cost_cells = cells;
   for (const std::string &key : figures) {
@@ -180,7 +181,7 @@ Json StudyTables::cases() const {
     one["name"] = plan_.cases[c].name;
     if (of_platens(plan_.kind)) one["surface"] = plan_.cases[c].surface;
     for (std::size_t k = 0; k < plan_.varied.size(); ++k)
-      one[plan_.varied[k]] = plan_.cases[c].labels[k];
+      one[plan_.varied[k]] = with_label(plan_.cases[c], k, [](const auto &label) { return Json(label); });
     one["overrides"] = plan_.cases[c].overrides;
     one["runs"] = cases_[c].runs;
     one["failed"] = cases_[c].failed;

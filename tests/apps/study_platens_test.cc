@@ -400,7 +400,9 @@ TEST_F(Study, of_friction_compares_nothing_that_never_peaked) {
                        "Loading/Target strain = 2e-4"}),
           "friction");
   EXPECT_EQ(outcome.status, 0) << outcome.error;
-  EXPECT_TRUE(contains(content_of(folder_ / "a/run.log"), "grease_seed_3: it reached no peak"));
+  const std::string log = content_of(folder_ / "a/run.log");
+  EXPECT_TRUE(contains(log, "grease_seed_3: it reached no peak"));
+  EXPECT_FALSE(contains(log, "nan")) << log;
   EXPECT_EQ(json("a")["cases"][0]["without_peak"], 1);
   EXPECT_TRUE(json("a")["cases"][0]["strength_pa"]["mean"].is_null());
   EXPECT_TRUE(json("a")["comparisons"][0]["mean"].is_null());

@@ -6,6 +6,8 @@
 #include "apps/programs.h"
 #include "apps/scene/errors.h"
 #include "apps/study/cases.h"
+#include "apps/scratch_folder.h"
+#include "apps/study/tables.h"
 #include "apps/study_runs.h"
 
 namespace platen::apps::testing {
@@ -38,6 +40,21 @@ TEST(StudyVary, a_word_has_its_name_and_no_number) {
   ASSERT_EQ(plan.cases.size(), 2u);
   EXPECT_EQ(plan.cases[1].name, "rotation_off");
   EXPECT_TRUE(std::isnan(plan.cases[1].labels.at(0)));
+  EXPECT_EQ(plan.cases[1].words, (std::vector<std::string>{"off"}));
+}
+
+class StudyVaryTables : public ScratchFolder {};
+TEST_F(StudyVaryTables, hold_the_words_that_vary) {
+  const StudyPlan plan = plan_with({"Study/Vary 1 = Effects/Rotation: on, off",
+                                    "Study/Vary 2 = Platens/Friction static: 0.2, 0.25", "Study/Seeds = 1"});
+  StudyTables tables(plan, OutputPaths(folder_));
+  for (std::size_t c = 0; c < plan.cases.size(); ++c)
+    tables.add({"compress", c, 1, plan.cases[c].name}, {});
+  EXPECT_EQ(words_in(folder_ / "study.csv", "rotation"), (std::vector<std::string>{"on", "on", "off", "off"}));
+  EXPECT_EQ(words_in(folder_ / "study.csv", "friction_static"),
+            (std::vector<std::string>{"0.2", "0.25", "0.2", "0.25"}));
+  EXPECT_EQ(tables.cases()[2]["rotation"], "off");
+  EXPECT_EQ(tables.cases()[2]["friction_static"], 0.2);
 }
 
 TEST(StudyVary, an_entry_that_every_case_sets_may_be_missing_in_the_scene) {
