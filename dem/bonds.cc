@@ -167,6 +167,28 @@ void Bonds::cut_blocks() {
   blocks.rebuild(first.data(), second.data(), size(), particles_, rotation_, stride);
 }
 
+void Bonds::require_ductile(const Particles &particles) const {
+  const auto *facet = std::get_if<FacetBond>(&law);
+  if (facet == nullptr || !(facet->parameters.fracture_energy > 0)) return;
+  std::size_t worst = 0;
+  double least = std::numeric_limits<double>::infinity(), radii = 0;
+  for (std::size_t k = 0; k < size(); ++k) {
+    const double ductility = facet->ductility(cohesive_geometry(k));
+    if (ductility < least) least = ductility, worst = k;
+  }
+  if (least > 1) return;
+  for (const double radius : particles.radius)
+    radii += radius;
+  const double energy = facet->parameters.fracture_energy;
+  throw BadParameter(FacetBond::Parameters::name, "fracture_energy", shortest_text(energy),
+                     "is not above the elastic energy at its strength of the bond between spheres " +
+                         std::to_string(particles.id[first[worst]]) + " and " +
+                         std::to_string(particles.id[second[worst]]) + ", " +
+                         shortest_text(rest_length[worst]) + " m long: it would be brittle. Allowed: > " +
+                         text_of(energy / least) + " J/m2, or spheres of a mean radius below " +
+                         text_of(least * radii / static_cast<double>(particles.size())) + " m.");
+}
+
 void Bonds::add_strength_factor() {
   if (strength_factor != nullptr) return;
   strength_factor = &table.add<double>("strength_factor", "1", at_least(0));

@@ -130,6 +130,9 @@ struct Bonds {
   // Adds dashpots of the fraction alpha of critical to every bond: F = 2 alpha sqrt(K m*) v in parallel with
   // each spring of stiffness K, with the reduced mass m* (inertia for moments). Bonds must be intact.
   void add_dashpots(const Particles &particles, double alpha);
+  // Facets: throws BadParameter, with the bond and the size that would do, if the fracture energy of one is
+  // not above its elastic energy at its strength.
+  void require_ductile(const Particles &particles) const;
   // Adds the column of strength factors, all 1, if there is none.
   void add_strength_factor();
   std::size_t size() const { return table.size(); }
@@ -163,7 +166,7 @@ struct Bonds {
   void set_memory(std::size_t row, const State &remembered);
   BondStiffness stiffness(std::size_t row) const; // at rest; 0 once broken
   // Whether kernels copy velocities into the rows of a block.
-  bool rows_move() const { return law_reads_motion(law) || dashpot != nullptr; }
+  bool rows_move() const { return rows_hold_motion_of(law) || dashpot != nullptr; }
   std::size_t bytes() const; // of all columns and of the blocks
 
 private:

@@ -73,6 +73,7 @@ Model::Model(const Specimen &specimen, const ModelSettings &settings)
   if (bonds) set_grain_friction(bonds->law, rubs(settings) ? settings.contact->friction : 0);
   if (bonds && settings.phases) apply_phases(*bonds, particles, *settings.phases);
   if (bonds && settings.strength_scatter) scatter_strengths(*bonds, *settings.strength_scatter);
+  if (bonds) bonds->require_ductile(particles);
   if (bonds && settings.bond_dashpot > 0) bonds->add_dashpots(particles, settings.bond_dashpot);
   if (settings.contact)
     contacts = std::make_unique<Contacts>(particles, contact_settings(settings), settings_.bond_layout,

@@ -27,21 +27,20 @@ BondSection section_of(const dem::ModelSettings &settings, double radius) {
   b.sphere_radius = radius;
   b.bond_radius = settings.bond_layout.bond_radius(radius, radius);
   b.modulus = settings.bond_layout.modulus;
+  const auto take_strengths = [&b](const auto &law) {
+    b.tensile_strength = dem::never_if_zero(law.tensile_strength);
+    b.shear_strength = dem::never_if_zero(law.shear_strength);
+    b.moment_contribution = law.moment_contribution;
+  };
   if (const auto *beam = std::get_if<dem::CohesiveBeam::Parameters>(&*settings.bond)) {
     b.beam = true;
     b.poisson_ratio = beam->poisson_ratio;
+    take_strengths(*beam);
   } else {
-    b.stiffness_ratio = std::get<dem::ParallelBond::Parameters>(*settings.bond).stiffness_ratio;
+    const auto &parallel = std::get<dem::ParallelBond::Parameters>(*settings.bond);
+    b.stiffness_ratio = parallel.stiffness_ratio;
+    take_strengths(parallel);
   }
-  std::visit(
-      [&](const auto &law) {
-        if constexpr (!std::is_same_v<std::decay_t<decltype(law)>, dem::OutsideLaw::Parameters>) {
-          b.tensile_strength = dem::never_if_zero(law.tensile_strength);
-          b.shear_strength = dem::never_if_zero(law.shear_strength);
-          b.moment_contribution = law.moment_contribution;
-        }
-      },
-      *settings.bond);
   return b;
 }
 } // namespace

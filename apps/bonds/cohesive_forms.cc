@@ -28,6 +28,9 @@ void take(CohesiveSection &s, const dem::YieldingParallelBond &law) {
   s.shear_ratio = law.parameters.stiffness_ratio;
   s.friction_static = std::tan(law.parameters.friction_angle), s.friction_dynamic = law.grain_friction;
 }
+[[noreturn]] void take(CohesiveSection & /*s*/, const dem::FacetBond & /*law*/) {
+  throw std::logic_error("a facet has no such closed forms"); // refused before (pair_section.cc)
+}
 
 } // namespace
 

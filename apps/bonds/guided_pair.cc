@@ -36,6 +36,9 @@ Remembered remembered(const dem::CohesiveState<double> &s) {
 Remembered remembered(const dem::YieldingParallelBond::State<double> &s) {
   return {s.plastic, s.broken == 1 ? 1.0 : 0.0, s.broken == 2 ? 1.0 : 0.0};
 }
+Remembered remembered(const dem::FacetBond::State<double> &s) {
+  return {s.plastic, s.damage, s.damage};
+}
 
 bool slides(const PairTest &test) {
   return test.path == PairPath::shear;
@@ -47,7 +50,12 @@ bool turning(const PairTest &test) {
 
 // How much of a moment counts towards failure.
 double beta_of(const dem::BondLaw &law) {
-  return dem::of_remembering(law, [](const auto &of) { return of.parameters.moment_contribution; });
+  return dem::of_remembering(law, [](const auto &of) {
+    if constexpr (std::is_same_v<decltype(of), const dem::FacetBond &>)
+      return 0.0;
+    else
+      return of.parameters.moment_contribution;
+  });
 }
 
 // Shares of a straight line where rows stand, ascending, the last one 1.

@@ -52,6 +52,9 @@ bool gives(const Scene &scene, const Parameters & /*parameters*/, const std::str
 // A bond that remembers is moved from place to place.
 void led_pair(const SceneCheck &check) {
   const PairTest &test = pair_test_of(check.scene());
+  if (check.scene().bond.is<dem::FacetBond>())
+    return check.refuse("Effects/Bond",
+                        "has no closed forms here. Allowed: another law, or a test of specimens.");
   const bool slips = test.path == PairPath::shear || test.path == PairPath::combined;
   if (test.particles != 2)
     check.refuse("Pair test/Particles",

@@ -258,7 +258,7 @@ BlockFindings compute_forces(const CohesiveColumns &c, const BlockColumns &block
 template <bool rotation, bool dashpots, class Law>
 BlockFindings compute_with(const CohesiveColumns &c, const BlockColumns &block, const Law &law, double dt,
                            std::size_t first, std::size_t last) {
-  using Rows = RowLayout<rotation, reads_motion<Law> || dashpots>;
+  using Rows = RowLayout<rotation, rows_hold_motion<Law> || dashpots>;
   return c.bonds.strength_factor != nullptr
              ? compute_forces<Rows, true, dashpots>(c, block, law, dt, first, last)
              : compute_forces<Rows, false, dashpots>(c, block, law, dt, first, last);

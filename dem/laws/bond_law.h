@@ -5,6 +5,7 @@
 #include "dem/laws/cohesive_beam.h"
 #include "dem/laws/cohesive_moments.h"
 #include "dem/laws/elasto_damage_plastic.h"
+#include "dem/laws/facet_bond.h"
 #include "dem/laws/law_list.h"
 #include "dem/laws/outside_law.h"
 #include "dem/laws/parallel_bond.h"
@@ -12,7 +13,7 @@
 
 namespace platen::dem {
 
-using BondLaws = LawList<ParallelBond, CohesiveBeam, ElastoDamagePlastic, YieldingParallelBond>;
+using BondLaws = LawList<ParallelBond, CohesiveBeam, ElastoDamagePlastic, YieldingParallelBond, FacetBond>;
 using AllBondLaws = BondLaws::With<OutsideLaw>;
 using BondLaw = AllBondLaws::Law;
 using BondParameters = AllBondLaws::Parameters;
@@ -67,8 +68,14 @@ template <class Law, class = void>
 constexpr bool reads_motion = false;
 template <class Law>
 constexpr bool reads_motion<Law, std::enable_if_t<Law::intact_reads_motion>> = true;
-inline bool law_reads_motion(const BondLaw &law) {
-  return std::visit([](const auto &l) { return reads_motion<std::decay_t<decltype(l)>>; }, law);
+// Laws for which the rows of a block hold the velocities of its particles: those, and others that have a
+// quick path without but leave it in most vectors.
+template <class Law, class = void>
+constexpr bool rows_hold_motion = reads_motion<Law>;
+template <class Law>
+constexpr bool rows_hold_motion<Law, std::enable_if_t<Law::often_reads_motion>> = true;
+inline bool rows_hold_motion_of(const BondLaw &law) {
+  return std::visit([](const auto &l) { return rows_hold_motion<std::decay_t<decltype(l)>>; }, law);
 }
 
 // Pairs within a fraction of the sum of their radii are bonded, whatever their gap.

@@ -92,6 +92,23 @@ ModelSettings yielding_bonds() {
   return s;
 }
 
+ModelSettings facets() {
+  ModelSettings s = bonded();
+  FacetBond::Parameters law;
+  law.stiffness_ratio = .25;
+  law.tensile_strength = 4e6, law.shear_strength = 11e6;
+  law.fracture_energy = 1;
+  law.friction_static = .2, law.transitional_stress = 600e6, law.friction_dynamic = .6;
+  law.compression_limits = {20e6, 45e6, 70e6}, law.compression_slopes = {3, 12, 22};
+  s.bond = law;
+  s.bond_layout.modulus = 28e9;
+  s.bond_layout.gap.value = .6;
+  s.contact = ContactSettings{};
+  s.contact->friction = .35;
+  s.contact->damping = 0;
+  return s;
+}
+
 ModelSettings breakable() {
   ModelSettings s = bonded();
   parallel_bond(s).tensile_strength = tensile_strength;

@@ -38,6 +38,7 @@ ModelSettings bonded_by_beams(double young, double poisson, double slender);
 ModelSettings interfaces();
 // Yielding parallel bonds, of so low a strength in shear that some slide apart, and contacts.
 ModelSettings yielding_bonds();
+ModelSettings facets();
 // Parallel bonds with the strengths above, and contacts of the bond's stiffness with friction .5 and without
 // dashpot.
 ModelSettings breakable();

@@ -5,6 +5,7 @@
 #include "base/pi.h"
 #include "base/vector3.h"
 #include "dem/laws/cohesive_moments.h"
+#include "dem/laws/facet_bond.h"
 #include "dem/laws/yielding_parallel_bond.h"
 #include "tests/dem/examples.h"
 
@@ -15,8 +16,9 @@ inline CohesiveResponse<double> act(const ElastoDamagePlastic &law, CohesiveStat
                                     const CohesiveGeometry<double> &g, const CohesiveMotion<double> &m) {
   return law.parameters.moments ? BendingCohesive{law}(s, g, m) : law(s, g, m);
 }
-inline CohesiveResponse<double> act(const YieldingParallelBond &law, YieldingParallelBond::State<double> &s,
-                                    const CohesiveGeometry<double> &g, const CohesiveMotion<double> &m) {
+template <class Law>
+CohesiveResponse<double> act(const Law &law, typename Law::template State<double> &s,
+                             const CohesiveGeometry<double> &g, const CohesiveMotion<double> &m) {
   return law(s, g, m);
 }
 

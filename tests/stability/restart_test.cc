@@ -18,12 +18,13 @@ enum Law {
   cohesive_beam,
   elasto_damage_plastic,
   yielding_parallel_bond,
-  bending_cohesive_bond
+  bending_cohesive_bond,
+  facet_bond
 };
 enum Fixed { rigid, elastic, quasi_static, sleeve };
 enum Moment { before_cracks, cracking, after_peak };
-constexpr std::array laws{parallel_bond, cohesive_beam, elasto_damage_plastic, yielding_parallel_bond,
-                          bending_cohesive_bond};
+constexpr std::array laws{parallel_bond,          cohesive_beam,         elasto_damage_plastic,
+                          yielding_parallel_bond, bending_cohesive_bond, facet_bond};
 constexpr std::array holds{rigid, elastic, quasi_static, sleeve};
 constexpr std::array moments{before_cracks, cracking, after_peak};
 constexpr std::array thread_counts{1, 2, 4};
@@ -34,6 +35,16 @@ void choose_yielding(PlatenTestSettings &s) {
   p.tensile_strength = 9e6, p.shear_strength = 36e6;
   p.compression_limits = {20e6, 45e6, 70e6}, p.compression_slopes = {3, 12, 22};
   s.model.bond = p;
+}
+
+void choose_facets(PlatenTestSettings &s) {
+  dem::FacetBond::Parameters p;
+  p.stiffness_ratio = 0.25, p.tensile_strength = 4e6, p.shear_strength = 22e6, p.fracture_energy = 1.2;
+  p.friction_static = 0.2, p.transitional_stress = 600e6, p.friction_dynamic = 0.6;
+  p.compression_limits = {20e6, 45e6, 70e6}, p.compression_slopes = {3, 12, 22};
+  s.model.bond = p;
+  s.model.bond_layout.modulus = 28e9;
+  s.model.bond_layout.gap.value = 0.6;
 }
 
 void choose(PlatenTestSettings &s, Law law) {
@@ -49,6 +60,7 @@ void choose(PlatenTestSettings &s, Law law) {
     s.model.bond = dem::CohesiveBeam::Parameters{0.3, 30e6, 90e6, 0.7853981633974483, 0.5};
   }
   if (law == yielding_parallel_bond) choose_yielding(s);
+  if (law == facet_bond) choose_facets(s);
   if (law == elasto_damage_plastic || law == bending_cohesive_bond) {
     dem::ElastoDamagePlastic::Parameters p;
     p.tensile_strength = 5e6, p.shear_strength = 16e6;
