@@ -59,7 +59,8 @@ dem::Specimen repeated(int particles) {
 const std::map<std::string, Law> laws{{"parallel-bond", Law::parallel_bond},
                                       {"cohesive-beam", Law::cohesive_beam},
                                       {"elasto-damage-plastic", Law::elasto_damage_plastic},
-                                      {"yielding-parallel-bond", Law::yielding_parallel_bond}};
+                                      {"yielding-parallel-bond", Law::yielding_parallel_bond},
+                                      {"facet", Law::facet}};
 
 coupling::PlatenTestSettings elastic_press(Law law) {
   coupling::PlatenTestSettings s;
@@ -86,6 +87,14 @@ coupling::PlatenTestSettings elastic_press(Law law) {
     static_cast<dem::ParallelBond::Parameters &>(p) = std::get<dem::ParallelBond::Parameters>(*s.model.bond);
     p.compression_limits = {1e9, 2e9, 3e9}, p.compression_slopes = {3, 12, 22};
     s.model.bond = p;
+  }
+  if (law == Law::facet) {
+    dem::FacetBond::Parameters p;
+    p.stiffness_ratio = 0.25, p.tensile_strength = 1e9, p.shear_strength = 4e9, p.fracture_energy = 1e9;
+    p.friction_static = 0.2, p.transitional_stress = 600e6, p.friction_dynamic = 0.6;
+    p.compression_limits = {1e9, 2e9, 3e9}, p.compression_slopes = {3, 12, 22};
+    s.model.bond = p;
+    s.model.bond_layout.gap.value = 0.6;
   }
   s.model.contact = dem::ContactSettings{};
   s.model.contact->damping = 0;

@@ -23,7 +23,7 @@ dem::Specimen close_packed(int particles);
 dem::Specimen repeated(int particles);
 
 // Failure checks, energy balance, local damping and contacts on; strengths that nothing reaches.
-enum class Law { parallel_bond, cohesive_beam, elasto_damage_plastic, yielding_parallel_bond };
+enum class Law { parallel_bond, cohesive_beam, elasto_damage_plastic, yielding_parallel_bond, facet };
 extern const std::map<std::string, Law> laws; // by the words of Effects/Bond, with dashes
 coupling::PlatenTestSettings elastic_press(Law law = Law::parallel_bond);
 

@@ -103,6 +103,9 @@ void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model)
   layout("area_factor");
   layout.rest();
   law.rest();
+  section.at("Fracture energy").needed_if([](const Situation &s) {
+    return s.scene.bond.is<dem::FacetBond>() ? needed_by_bonds(s, "Bond/Fracture energy") : "";
+  });
   section.at("Softening tension")
       .only_if([](const Scene &s) { return !(s.bond.number("fracture_energy_tension") > 0); },
                "Bond/Fracture energy tension takes its place");

@@ -82,20 +82,27 @@ TEST_F(Ranks, a_run_resumed_on_four_three_one_and_seven_ranks_ends_as_if_it_had_
   EXPECT_EQ(unlike("whole", "stopped"), "");
 }
 
-// Broken rows of yielding bonds are put behind whole ones as a run goes on.
-TEST_F(Ranks, yielding_bonds_stopped_on_one_and_resumed_on_three_end_in_the_same_bytes) {
-  const std::vector<std::string> yielding{"-s", "Effects/Bond = yielding parallel bond",
-                                          "-s", "Bond/Compression limits = 20 MPa, 45 MPa, 70 MPa",
-                                          "-s", "Bond/Compression slopes = 3, 12, 22"};
-  run_whole("whole", yielding);
-  EXPECT_GT(summary_in(folder_ / "whole")["broken_tension"], 300);
-  const int status = disturb(crush("stopped", yielding), "stopped", 40,
-                             [](Program &program) { kill(program.id(), SIGTERM); });
-  ASSERT_EQ(status, 143) << said();
-  std::vector<std::string> resumed = yielding;
-  resumed.emplace_back("--resume");
-  run_on(3, "stopped", resumed);
-  EXPECT_EQ(unlike("whole", "stopped"), "");
+// Failed rows of laws that remember are put behind whole ones as a run goes on.
+TEST_F(Ranks, failed_bonds_stopped_on_one_and_resumed_on_three_end_in_the_same_bytes) {
+  const std::vector<std::string> yielding{"-s", "Effects/Bond = yielding parallel bond"},
+      facets{"-s", "Effects/Bond = facet",         "-s", "Bond/Tensile strength = 4 MPa",
+             "-s", "Bond/Shear strength = 11 MPa", "-s", "Bond/Fracture energy = 7 J/m2",
+             "-s", "Bond/Friction dynamic = 0.6",  "-s", "Bond/Gap = 0.6 R_min"};
+  for (std::vector<std::string> law : {yielding, facets}) {
+    SCOPED_TRACE(law[1]);
+    for (const char *entry :
+         {"Compression limits = 20 MPa, 45 MPa, 70 MPa", "Compression slopes = 3, 12, 22"})
+      law.insert(law.end(), {"-s", std::string("Bond/") + entry});
+    const std::string whole = "whole " + law[1], stopped = "stopped " + law[1];
+    run_whole(whole, law);
+    EXPECT_GT(summary_in(folder_ / whole)["broken_tension"], 300);
+    const int status =
+        disturb(crush(stopped, law), stopped, 40, [](Program &program) { kill(program.id(), SIGTERM); });
+    ASSERT_EQ(status, 143) << said();
+    law.emplace_back("--resume");
+    run_on(3, stopped, law);
+    EXPECT_EQ(unlike(whole, stopped), "");
+  }
 }
 
 // Ranks of which this one has `own`, as the others have `others`.

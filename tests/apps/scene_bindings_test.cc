@@ -140,11 +140,14 @@ TEST(SceneBindings, an_entry_without_effect_names_the_laws_that_it_is_for) {
             "has no effect: Effects/Bond is not cohesive beam or elasto damage plastic.");
   EXPECT_EQ(note({beam, "Bond/Poisson ratio = 0.1"}), "0");
   EXPECT_EQ(note({beam, "Bond/Stiffness ratio = 0.1"}),
-            "has no effect: Effects/Bond is not parallel bond or yielding parallel bond.");
+            "has no effect: Effects/Bond is not parallel bond, yielding parallel bond or facet.");
   EXPECT_EQ(note({"Bond/Compression limits = 1 MPa", "Bond/Compression slopes = 2"}), "2");
   EXPECT_EQ(note({"Effects/Bond = yielding parallel bond", "Bond/Compression limits = 1 MPa",
                   "Bond/Compression slopes = 2"}),
             "0");
+  const std::string facet = "Effects/Bond = facet", energy = "Bond/Fracture energy = 20 J/m2";
+  EXPECT_EQ(note({facet, energy, "Bond/Softening exponent = 0.3", "Bond/Gap = 0.6 R_min"}), "0");
+  EXPECT_EQ(note({energy}), "has no effect: Effects/Bond is not facet.");
   EXPECT_EQ(note({interface, "Bond/Gap = 0.1 R_min"}),
             "has no effect: Effects/Bond = elasto damage plastic.");
   EXPECT_EQ(note({interface, "Bond/Fracture energy shear = 2", "Bond/Softening shear = 2"}),

@@ -80,6 +80,13 @@ const std::vector<Case> cases{
      "crushed.prm",
      {"Effects/Bond = yielding parallel bond", "Bond/Compression limits = 5 MPa, 10 MPa, 20 MPa",
       "Bond/Compression slopes = 2, 4, 8"},
+     {"plastic_work_j"}},
+    {"facets",
+     "crushed.prm",
+     {"Effects/Bond = facet", "Bond/Tensile strength = 4 MPa", "Bond/Shear strength = 11 MPa",
+      "Bond/Fracture energy = 20 J/m2", "Bond/Friction static = 0.2", "Bond/Friction dynamic = 0.6",
+      "Bond/Gap = 0.6 R_min", "Bond/Compression limits = 5 MPa, 10 MPa, 20 MPa",
+      "Bond/Compression slopes = 2, 4, 8"},
      {"plastic_work_j"}}};
 
 class ToldAfterRead : public testing::TestWithParam<Case> {};

@@ -97,7 +97,7 @@ ModelSettings facets() {
   FacetBond::Parameters law;
   law.stiffness_ratio = .25;
   law.tensile_strength = 4e6, law.shear_strength = 11e6;
-  law.fracture_energy = 1;
+  law.fracture_energy = 1.05;
   law.friction_static = .2, law.transitional_stress = 600e6, law.friction_dynamic = .6;
   law.compression_limits = {20e6, 45e6, 70e6}, law.compression_slopes = {3, 12, 22};
   s.bond = law;

@@ -35,6 +35,10 @@ SHORT = ["Loading/Axial rate = 2 m/s", "Loading/Target strain = 0.004", "Loading
 CELL = ["Loading/Confining pressure = 20 MPa", "Loading/Confining ramp = 0.02 ms"]
 YIELDING = ["Effects/Bond = yielding parallel bond", "Bond/Compression limits = 20 MPa, 45 MPa, 70 MPa",
             "Bond/Compression slopes = 3, 12, 22"]
+FACETS = ["Effects/Bond = facet", "Bond/Modulus = 28 GPa", "Bond/Stiffness ratio = 0.25", "Bond/Tensile strength = 4 MPa",
+          "Bond/Shear strength = 11 MPa", "Bond/Fracture energy = 10 J/m2", "Bond/Friction static = 0.2", "Bond/Friction dynamic = 0.6",
+          "Bond/Transitional stress = 600 MPa", "Bond/Compression limits = 20 MPa, 45 MPa, 70 MPa",
+          "Bond/Compression slopes = 3, 12, 22", "Bond/Gap = 0.6 R_min"]
 TRUE_TRIAXIAL = faults.SOURCE / "scenes/true_triaxial.prm"
 STAGES = faults.SOURCE / "scenes/multistage_triaxial.prm"
 CLASS_TWO = faults.SOURCE / "scenes/class_two_concrete.prm"
@@ -58,6 +62,7 @@ CASES = {
     "wall": crushed("Loading/Test = uniaxial strain"),
     "cohesive_beam": crushed("Effects/Bond = cohesive beam"),
     "elasto_damage_plastic": crushed("Effects/Bond = elasto damage plastic"),
+    "facets": crushed(*FACETS),
     "yielding": crushed(*YIELDING),
     "hertz_rolling": crushed("Effects/Contact = hertz", "Effects/Tangential = coulomb with rolling resistance",
                              "Contact/Rolling friction = 0.1"),

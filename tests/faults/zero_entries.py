@@ -49,6 +49,8 @@ TESTS = {
                    "Bond/Friction dynamic = 0.25", "Bond/Compression limits = 20 MPa, 45 MPa, 70 MPa", "Bond/Compression slopes = 3, 12, 22"]),
     "yielding": ("platen-compress", "crushed.prm", [*COARSE, "Effects/Bond = yielding parallel bond",
                                                     "Bond/Compression limits = 5 MPa, 10 MPa, 20 MPa", "Bond/Compression slopes = 2, 4, 8"]),
+    "facets": ("platen-compress", "crushed.prm", [*COARSE, "Effects/Bond = facet", "Bond/Tensile strength = 4 MPa", "Bond/Shear strength = 11 MPa",
+                                                  "Bond/Fracture energy = 20 J/m2", "Bond/Friction dynamic = 0.6", "Bond/Gap = 0.6 R_min"]),
     "beams": ("platen-compress", "crushed.prm", [*COARSE, "Effects/Bond = cohesive beam"]),
     "six sides": ("platen-compress", "held.prm", [*COARSE, "Platens/Friction static = 0.2", "Platens/Friction dynamic = 0.2"]),
     "disc": ("platen-brazilian", "split.prm", COARSE),
