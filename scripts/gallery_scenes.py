@@ -18,6 +18,7 @@ GROUPS = [
     ("Concrete between platens", [
         Scene("demo_dry", COMPRESS, "cones"),
         Scene("demo_lubricated", COMPRESS, "outward_displacement"),
+        Scene("facet_dry", COMPRESS, "cones"),
         Scene("concrete_dry", COMPRESS, "outward_displacement"),
         Scene("concrete_lubricated", COMPRESS, "outward_displacement"),
         Scene("cube_dry", COMPRESS, "outward_displacement"),

@@ -417,9 +417,10 @@ PLATEN_INLINE CohesiveResponse<Real> FacetBond::operator()(State<Real> &s, const
       return turned(Rotation<Real>{q.w, Real(-q.x), Real(-q.y), Real(-q.z)}, by);
     };
     s.slip = s.slip + scale(g.lever, back(m.turn_i)) + scale(Real(1.0 - g.lever), back(m.turn_j));
-    const Triple<Real> both_ends = e.slip + e.slip - plane.moved - by;
-    s.dissipated = s.dissipated + 0.5 * g.area * ks * (1.0 - s.damage) * dot(both_ends, by);
+    const Triple<Real> before = e.slip;
     e = springs(s, g, pose);
+    const Triple<Real> both_ends = before - plane.moved + e.slip;
+    s.dissipated = s.dissipated + 0.5 * g.area * ks * (1.0 - s.damage) * dot(both_ends, before - e.slip);
   }
   grow(s, g, e);
   slide(s, g, plane, closing, limit, damage_before);

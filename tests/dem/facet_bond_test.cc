@@ -211,6 +211,19 @@ TEST(FacetBond, rigid_turns_change_nothing) {
   }
 }
 
+// Slip by much while the spheres turn against each other: what is dissipated is what the work leaves.
+TEST(FacetBond, slip_of_spheres_that_turn_against_each_other_dissipates_its_work) {
+  for (const double opened : {0.0, 12e6}) {
+    Bond bond;
+    bond.to(opened, 0);
+    bond.to(-80e6, 0, 0, 200);
+    const double before = bond.balance() - bond.work;
+    bond.move({0, 0, -50e6 / stiffness}, {0.5, 0.03, 0.1}, {0.4, -0.03, -0.05}, 10000);
+    bond.move({0, 0, 20e6 / stiffness}, {-0.2, 0.1, 0}, {-0.2, 0.15, 0.05}, 10000);
+    EXPECT_NEAR(bond.balance() - bond.work, before, 2e-5 * bond.work);
+  }
+}
+
 // With a share of moments: that of the parallel bond, less what damage took; without, none.
 TEST(FacetBond, moments_are_a_share_of_those_of_the_section) {
   FacetBond::Parameters p = concrete();
