@@ -89,6 +89,12 @@ class Curves(WithRuns):
         main, small = lines_of(curves.pictures_of_curves(self.run_of(columns, name="other"))[1])
         self.assertIn("elastic energy of contacts", main)
 
+    def test_damage_is_not_called_broken_bonds_where_the_law_softens(self):
+        columns = {"z": [0, 1, 2], "boundary_work_j": [0, 5, 10], "fracture_work_j": [0, 1, 3]}
+        for law, words in (("parallel bond", "broken bonds"), ("elasto damage plastic", "damage of bonds"), ("facet", "damage and slip of bonds")):
+            run = self.run_of(columns, scene=f"subsection Effects\n set Bond = {law}\nend\n", name=law)
+            self.assertEqual(list(lines_of(curves.pictures_of_curves(run)[1])[0]), ["work of the platens", words])
+
     def test_discs_and_cells_have_their_pictures(self):
         names = lambda run: [picture.name for picture in curves.pictures_of_curves(run)]  # noqa: E731
         disc = self.run_of({"z": [0, MPA, 0], "opening_m": [0, 1e-4, 2e-4]}, name="disc")

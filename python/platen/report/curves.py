@@ -16,8 +16,9 @@ from .run import STRAIN, STRESS, listed, number_in
 
 # Column, words, colour, line of the energies; the share of the work from which on a term stands in the first chart.
 MAIN = (("boundary_work_j", "work of the platens", BLACK, "-"), ("bond_energy_j", "elastic energy of bonds", BLUE, "-"),
-        ("fracture_work_j", "broken bonds", VERMILION, "-"), ("friction_work_j", "friction", ORANGE, "-"),
+        ("fracture_work_j", "{fracture}", VERMILION, "-"), ("friction_work_j", "friction", ORANGE, "-"),
         ("damping_work_j", "damping", GREY, "-"), ("plastic_work_j", "plastic work of bonds ({law})", PURPLE, "-"))
+FRACTURE = {"elasto damage plastic": "damage of bonds", "facet": "damage and slip of bonds"}  # by law; else broken bonds
 SMALL = (("contact_energy_j", "elastic energy of contacts", SKY, "-"),
          ("body_energy_j", "elastic energy of platens, sleeve and machine", GREEN, "-"), ("kinetic_energy_j", "kinetic energy", BLUE, "--"))
 RESIDUAL = ("energy_residual_j", "residual", BLACK, "--")
@@ -107,8 +108,10 @@ def _terms(run, main):
 
 def energies(axes, run, main=True):
     """Over strain, where the work of the platens went; with main=False its small terms and the residual."""
+    law = run.entry("Effects/Bond")
     for column, words, colour, line in _terms(run, main):
-        axes.plot(run.strain * MM, run.h[column], line, color=colour, label=words.format(law=run.entry("Effects/Bond") or "all laws"))
+        label = words.format(law=law or "all laws", fracture=FRACTURE.get(law, "broken bonds"))
+        axes.plot(run.strain * MM, run.h[column], line, color=colour, label=label)
     axes.locator_params(axis="y", nbins=6)
     titled(axes, run.strain_title, "Energy (J)", 2)
 
