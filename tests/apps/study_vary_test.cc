@@ -48,8 +48,12 @@ TEST_F(StudyVaryTables, hold_the_words_that_vary) {
   const StudyPlan plan = plan_with({"Study/Vary 1 = Effects/Rotation: on, off",
                                     "Study/Vary 2 = Platens/Friction static: 0.2, 0.25", "Study/Seeds = 1"});
   StudyTables tables(plan, OutputPaths(folder_));
-  for (std::size_t c = 0; c < plan.cases.size(); ++c)
-    tables.add({"compress", c, 1, plan.cases[c].name}, {});
+  for (std::size_t c = 0; c < plan.cases.size(); ++c) {
+    TestRun run;
+    run.of = c;
+    run.seed = 1;
+    tables.add(run, {});
+  }
   EXPECT_EQ(words_in(folder_ / "study.csv", "rotation"), (std::vector<std::string>{"on", "on", "off", "off"}));
   EXPECT_EQ(words_in(folder_ / "study.csv", "friction_static"),
             (std::vector<std::string>{"0.2", "0.25", "0.2", "0.25"}));

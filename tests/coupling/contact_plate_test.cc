@@ -123,6 +123,25 @@ TEST(contact_plate, a_skew_plate_feels_like_a_level_one) {
   }
 }
 
+// The stiffest spring on a face is that over its softest corner, whichever that is.
+TEST(contact_plate, the_softest_corner_of_a_face_bounds_its_springs) {
+  const auto spring = [](int softest) {
+    SurfaceContact contact = frictional(0.4, 0.4);
+    contact.face_compliance.assign(plate(0.01, 1).surface().faces.size(), fem::FaceCompliance{});
+    for (fem::FaceCompliance &c : contact.face_compliance)
+      for (int corner = 0; corner < 4; ++corner)
+        c[corner][corner] = (corner == softest ? 0.2 : 0.05) / stiffness;
+    SphereScene scene(plate(0.01, 1), {{0, 0, 0.99 * sphere_radius}}, contact, false);
+    scene.carry(1e-9);
+    return scene.layer.ground_springs(scene.particles, scene.body).at(0).normal_stiffness;
+  };
+  const double nowhere = spring(-1);
+  EXPECT_GT(nowhere, stiffness);
+  EXPECT_GT(spring(0), 1.1 * nowhere);
+  for (int corner = 1; corner < 4; ++corner)
+    EXPECT_EQ(spring(corner), spring(0)) << corner;
+}
+
 TEST(contact_plate, sliding_starts_at_the_static_limit_and_goes_on_at_the_dynamic_one) {
   SphereScene scene(plate(0.01, 10), {{-0.005, 0.001, 0.99 * sphere_radius}}, frictional(0.57, 0.3));
   const double normal = stiffness * 0.01 * sphere_radius, dt = 1e-6;

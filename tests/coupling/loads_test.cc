@@ -142,6 +142,14 @@ TEST_F(LoadsOfStages, the_sides_count_where_they_are_asked_something_else) {
   EXPECT_EQ(settings_of(*test), (std::vector<int>{1, 1, 1, 1, 2, 2, 3, 4}));
 }
 
+// A circumferential rate reaches its strain in that over the rate, and half of the ramp more.
+TEST_F(LoadsOfStages, a_circumferential_stage_is_as_long_as_its_strain_at_its_rate) {
+  add({asked_of(SideGroup::axial, Ask::circumferential, 0.1)});
+  stages_.back().ramp = 2e-4;
+  stages_.back().until = {{Until::Reached::circumferential_strain, 3e-4}};
+  EXPECT_DOUBLE_EQ(made()->program().stage(0).expected_seconds(), 1e-4 + 3e-4 / 0.1);
+}
+
 // While it is on its way, the stress of the axis may fall with it.
 TEST_F(LoadsOfStages, within_the_ramp_of_another_pressure_none_loads_on) {
   add({drive, pressure(5e6)});

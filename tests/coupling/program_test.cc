@@ -147,7 +147,10 @@ TEST(axial_rate, of_nothing_is_refused) {
   Seen seen;
   Drive drive(Drive::Parameters{axial, std::nullopt});
   EXPECT_THROW(drive.ask(0, 1e-3, seen, 0), std::invalid_argument);
+  EXPECT_THROW(drive.change_rate(0.1, seen), std::invalid_argument); // of a drive that was asked for none
   EXPECT_NO_THROW(drive.ask(-0.1, 1e-3, seen, 0));
+  EXPECT_THROW(drive.change_rate(0, seen), std::invalid_argument);
+  EXPECT_NO_THROW(drive.change_rate(0.1, seen));
 }
 
 TEST(program, goes_on_from_its_state_to_the_last_bit) {

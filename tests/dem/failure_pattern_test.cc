@@ -111,6 +111,23 @@ TEST(failure_pattern, both_ends_decide) {
   }
 }
 
+TEST(failure_pattern, a_plane_decides_with_half_of_all_broken_bonds_across_the_specimen) {
+  FailureMeasures m;
+  m.broken_share = .4, m.width = .05;
+  m.planes.count = 1, m.planes.broken = 1000;
+  const auto decided = [&m](double bonds, double extent, double inclination) {
+    m.planes.largest.bonds = bonds, m.planes.largest.extent = extent,
+    m.planes.largest.inclination = inclination;
+    return judge_failure(m).by == DecidedBy::one_plane;
+  };
+  EXPECT_TRUE(decided(500, .0451, 1.13));
+  EXPECT_FALSE(decided(499, .0451, 1.13));
+  EXPECT_FALSE(decided(500, .0449, 1.13));
+  EXPECT_FALSE(decided(500, .0451, 1.131));
+  m.planes.count = 0;
+  EXPECT_FALSE(decided(500, .0451, 1.13));
+}
+
 // A cube between dry platens: its ends are damaged and stay where they are.
 TEST(failure_pattern, an_end_that_did_not_spread_is_not_crushed) {
   FailureMeasures m;

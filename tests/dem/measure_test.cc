@@ -178,6 +178,14 @@ TEST(measure, without_bonds_the_gauge_counts_every_sphere) {
   for (const Vector3 &x : loose.particles.reference_position)
     middle += std::abs(x.z - .5 * specimen.shape.height) < .25 * specimen.shape.height;
   EXPECT_EQ(all.size(), middle);
+  settings.bond = bonded().bond;
+  settings.bond_layout.gap = {false, 1e-12}; // nobody is that near: bonds, but none
+  Specimen apart = specimen;
+  for (double &r : apart.radius)
+    r *= .9;
+  const Model none(apart, settings);
+  ASSERT_EQ(none.bonds->initial_count(), 0u);
+  EXPECT_EQ(Gauge(none.particles, specimen.shape, none.bonds.get()).size(), middle);
 }
 
 TEST(measure, the_gauge_does_not_see_the_ends) {
@@ -199,6 +207,11 @@ TEST(measure, extremal_pairs_read_an_affine_motion) {
   EXPECT_NEAR(pairs.axial(model.particles), -4e-3, 1e-12);
   // Lateral pairs are not quite level: their z difference, below 4 R on 14 R, contracts by 4e-3.
   EXPECT_NEAR(pairs.lateral(model.particles), 1e-3, .15e-3);
+  for (const bool along_x : {true, false}) { // half of the pairs are of each axis
+    Model one(specimen, bonded());
+    deform(one.particles, {{{along_x ? 1e-3 : 0, 0, 0}, {0, along_x ? 0 : 1e-3, 0}, {0, 0, 0}}}, {});
+    EXPECT_NEAR(pairs.lateral(one.particles), .5e-3, .05e-3) << along_x;
+  }
 }
 
 // Sum over particles of V sigma : eps is twice the energy stored, for spheres that follow an affine strain.

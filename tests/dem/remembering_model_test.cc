@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/state.h"
+#include "dem/packing/advancing_front.h"
 #include "tests/dem/one_bond.h"
 
 namespace platen::dem {
@@ -166,7 +167,10 @@ TEST_P(RememberingKernels, and_sums_follow_the_law_on_every_instruction_set_and_
     settings.rotation = rotation;
     settings.instruction_set = set;
     if (scattered) settings.strength_scatter = StrengthScatter{of.weibull, 1};
-    Model model(packed_box(15, 15, 15), settings);
+    // Of unequal spheres, so that both ends of a bond differ.
+    Model model(advancing_front(box(15 * radius, 15 * radius, 15 * radius),
+                                two_radii(.8 * radius, radius, .5), 1),
+                settings);
     Particles &p = model.particles;
     Bonds &b = *model.bonds;
     ASSERT_NE(b.size() % 8, 0u); // a last pack that is not full
