@@ -86,7 +86,7 @@ TEST_F(Ranks, a_run_resumed_on_four_three_one_and_seven_ranks_ends_as_if_it_had_
 TEST_F(Ranks, failed_bonds_stopped_on_one_and_resumed_on_three_end_in_the_same_bytes) {
   const std::vector<std::string> yielding{"-s", "Effects/Bond = yielding parallel bond"},
       facets{"-s", "Effects/Bond = facet",         "-s", "Bond/Tensile strength = 4 MPa",
-             "-s", "Bond/Shear strength = 11 MPa", "-s", "Bond/Fracture energy = 7 J/m2",
+             "-s", "Bond/Shear strength = 11 MPa", "-s", "Bond/Fracture energy = 5 J/m2",
              "-s", "Bond/Friction dynamic = 0.6",  "-s", "Bond/Gap = 0.6 R_min"};
   for (std::vector<std::string> law : {yielding, facets}) {
     SCOPED_TRACE(law[1]);
