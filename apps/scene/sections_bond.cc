@@ -103,9 +103,11 @@ void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model)
   layout("area_factor");
   layout.rest();
   law.rest();
-  section.at("Fracture energy").needed_if([](const Situation &s) {
-    return s.scene.bond.is<dem::FacetBond>() ? needed_by_bonds(s, "Bond/Fracture energy") : "";
-  });
+  section.at("Fracture energy")
+      .needed_if([](const Situation &s) {
+        return s.scene.bond.is<dem::FacetBond>() ? needed_by_bonds(s, "Bond/Fracture energy") : "";
+      })
+      .or_word("brittle", between(1e-9, 1e9));
   section.at("Softening tension")
       .only_if([](const Scene &s) { return !(s.bond.number("fracture_energy_tension") > 0); },
                "Bond/Fracture energy tension takes its place");

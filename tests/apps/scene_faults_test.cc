@@ -296,6 +296,21 @@ TEST(SceneFaults, no_bond_is_unbreakable_by_oversight) {
   }
 }
 
+TEST(SceneFaults, facets_need_their_fracture_energy_and_have_no_closed_form) {
+  const auto good = (folder / "fragment" / "good.prm").string();
+  const std::vector<std::string> facet{"Effects/Bond = facet"};
+  std::vector<std::string> whole = facet;
+  whole.emplace_back("Bond/Fracture energy = 20 J/m2");
+  EXPECT_NE(message_of(good, facet).find("Bond/Fracture energy is not set: Effects/Bond is facet."),
+            std::string::npos)
+      << message_of(good, facet);
+  EXPECT_EQ(message_of(good, whole), "");
+  whole.emplace_back("Pair test/Displacement = 1 um"), whole.emplace_back("Integration/Damping = 0");
+  EXPECT_NE(message_of(good, whole, program("bonds")).find("Effects/Bond = facet has no closed forms here."),
+            std::string::npos)
+      << message_of(good, whole, program("bonds"));
+}
+
 TEST(SceneFaults, what_is_unbreakable_is_written_so_and_read_again) {
   const auto good = (folder / "fragment" / "good.prm").string();
   const Scene first = read_scene(good, {"Bond/Tensile strength = unbreakable"}, program("compress"));

@@ -168,9 +168,9 @@ TEST_P(RememberingKernels, and_sums_follow_the_law_on_every_instruction_set_and_
     settings.instruction_set = set;
     if (scattered) settings.strength_scatter = StrengthScatter{of.weibull, 1};
     // Of unequal spheres, so that both ends of a bond differ.
-    Model model(advancing_front(box(15 * radius, 15 * radius, 15 * radius),
-                                two_radii(.8 * radius, radius, .5), 1),
-                settings);
+    Model model(
+        advancing_front(box(15 * radius, 15 * radius, 15 * radius), two_radii(.8 * radius, radius, .5), 1),
+        settings);
     Particles &p = model.particles;
     Bonds &b = *model.bonds;
     ASSERT_NE(b.size() % 8, 0u); // a last pack that is not full
@@ -277,6 +277,28 @@ TEST_P(RememberingModel, threads_do_not_change_a_bit) {
 
 INSTANTIATE_TEST_SUITE_P(laws, RememberingModel, testing::ValuesIn(laws),
                          [](const testing::TestParamInfo<LawCase> &law) { return law.param.name; });
+
+// sigma_t^2 L/(2 E) is what the bond of two touching spheres holds at its strength: 0.743 J/m2.
+TEST(FacetModel, a_bond_that_would_be_brittle_is_refused_by_name_with_the_size_that_would_do) {
+  ModelSettings settings = facets();
+  const auto refusal = [&](double energy) {
+    std::get<FacetBond::Parameters>(*settings.bond).fracture_energy = energy;
+    try {
+      const Model model(spheres({{0, 0, 0}, {0, 0, 2 * radius}}), settings);
+    } catch (const BadParameter &e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  const double held = 4e6 * 4e6 * 2 * radius / (2 * 28e9);
+  EXPECT_EQ(refusal(1.001 * held), "");
+  EXPECT_EQ(refusal(0), ""); // brittle as it is asked
+  const std::string told = refusal(0.5 * held);
+  EXPECT_NE(told.find("of the bond between spheres 0 and 1, 0.0026 m long"), std::string::npos) << told;
+  EXPECT_NE(told.find("Allowed: > " + text_of(held) + " J/m2, or spheres of a mean radius below 0.00065 m."),
+            std::string::npos)
+      << told;
+}
 
 TEST(CohesiveModel, interfaces_that_bend_differ_from_those_that_do_not) {
   EXPECT_NE(shaken_to_pieces(interfaces(), 1), shaken_to_pieces(bending_cohesive(), 1));
