@@ -18,11 +18,11 @@ inline bool of_platens(StudyKind kind) {
 }
 
 struct StudyCase {
-  std::string name;                   // of folders and tables: "sphere_radius_1_mm"
-  std::vector<double> labels;         // one for each column of StudyPlan::varied, SI; NaN where it has none
-  std::vector<std::string> overrides; // "Section/Key = value"
+  std::string name;                    // of folders and tables: "sphere_radius_1_mm"
+  std::vector<double> labels;          // one for each column of StudyPlan::varied, SI; NaN where it has none
+  std::vector<std::string> overrides;  // "Section/Key = value"
   std::vector<std::string> words = {}; // by label: where it is a word instead of a number; else ""
-  std::string surface = {};           // what the platens are, in words; studies of platens
+  std::string surface = {};            // what the platens are, in words; studies of platens
   std::vector<std::string> packings = {}; // by seed: packing_name of its specimen; "" of one from a file
   std::string scene = {};                 // that its entries change; "": the study's
   std::string envelope = {};              // its name but for its pressure: what one failure envelope is of

@@ -5,8 +5,8 @@
 
 #include "apps/programs.h"
 #include "apps/scene/errors.h"
-#include "apps/study/cases.h"
 #include "apps/scratch_folder.h"
+#include "apps/study/cases.h"
 #include "apps/study/tables.h"
 #include "apps/study_runs.h"
 
@@ -54,7 +54,8 @@ TEST_F(StudyVaryTables, hold_the_words_that_vary) {
     run.seed = 1;
     tables.add(run, {});
   }
-  EXPECT_EQ(words_in(folder_ / "study.csv", "rotation"), (std::vector<std::string>{"on", "on", "off", "off"}));
+  EXPECT_EQ(words_in(folder_ / "study.csv", "rotation"),
+            (std::vector<std::string>{"on", "on", "off", "off"}));
   EXPECT_EQ(words_in(folder_ / "study.csv", "friction_static"),
             (std::vector<std::string>{"0.2", "0.25", "0.2", "0.25"}));
   EXPECT_EQ(tables.cases()[2]["rotation"], "off");
