@@ -214,6 +214,7 @@ ExactSum compute_cohesive_forces(Particles &p, Bonds &b, InstructionSet set, con
       beside);
   for (std::size_t block = 0; block < found.size(); ++block) {
     if (!found[block].reached) continue;
+    b.look_at_order(block);
     const auto before = static_cast<std::ptrdiff_t>(breaks.size());
     for (std::size_t k = found[block].first_reached; k < found[block].end_reached; ++k)
       if (b.has_failed(k) && b.state[b.record[k]] < static_cast<int>(BondState::broken_in_tension))

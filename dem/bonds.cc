@@ -257,37 +257,54 @@ void Bonds::count_and_cut() {
 void Bonds::count_rows() {
   broken_rows = static_cast<std::size_t>(std::count(normal_stiffness.begin(), normal_stiffness.end(), 0.0));
   failed_rows = 0;
-  failed_.clear();
+  disorder_.clear();
   if (!has_history(law)) return;
-  if (failed_rows_last(law)) failed_.resize(number_of_blocks(particles_));
+  if (failed_rows_last(law)) disorder_.resize(number_of_blocks(particles_));
   for (std::size_t k = 0; k < size();) {
     const std::size_t begin = k, block = static_cast<std::size_t>(first[k]) / block_rows;
-    Failed failed;
     for (; k < size() && static_cast<std::size_t>(first[k]) / block_rows == block; ++k)
-      failed.all += has_failed(k);
-    failed_rows += static_cast<std::size_t>(failed.all);
-    count_last(failed, begin, k);
-    if (!failed_.empty()) failed_[block] = failed;
+      failed_rows += has_failed(k);
+    if (!disorder_.empty()) disorder_[block] = in_disorder(begin, k);
   }
 }
 
-void Bonds::count_last(Failed &failed, std::size_t begin, std::size_t end) const {
-  while (static_cast<std::size_t>(failed.last) < end - begin &&
-         has_failed(end - 1 - static_cast<std::size_t>(failed.last)))
-    ++failed.last;
+int Bonds::place(std::size_t k) const {
+  const double damaged = damage(k);
+  if (normal_stiffness[k] == 0.0 || damaged >= 1.0) return 2;
+  return damaged > 0 && damaged_rows_apart(law);
+}
+
+// Whether enough rows stand before one of a lower place: SIMD vectors would be of several kinds.
+bool Bonds::in_disorder(std::size_t begin, std::size_t end) const {
+  constexpr int enough = 8; // lanes of the widest SIMD vector
+  int before[3] = {}, misplaced[3] = {};
+  for (std::size_t k = begin; k < end; ++k) {
+    const int here = place(k);
+    for (int at = 1; at <= 2; ++at)
+      if (here >= at)
+        ++before[at];
+      else
+        misplaced[at] = before[at];
+  }
+  return misplaced[1] >= enough || misplaced[2] >= enough;
+}
+
+void Bonds::look_at_order(std::size_t block) {
+  if (!disorder_.empty())
+    disorder_[block] = in_disorder(blocks.first_pair[block], blocks.first_pair[block + 1]);
 }
 
 // Each block decides by its own rows only: threads, ranks and restarts do not change the time of reordering.
-void Bonds::order_failed() {
-  constexpr int enough = 8; // lanes of the widest SIMD vector
-  for (std::size_t b = 0; b < failed_.size(); ++b) {
-    if (failed_[b].all - failed_[b].last < enough) continue;
-    failed_[b].last = failed_[b].all;
+void Bonds::order_rows() {
+  for (std::size_t b = 0; b < disorder_.size(); ++b) {
+    if (!disorder_[b]) continue;
+    disorder_[b] = 0;
     const std::size_t begin = blocks.first_pair[b], count = blocks.first_pair[b + 1] - begin;
-    std::vector<int> order(count);
+    std::vector<int> order(count), places(count);
     std::iota(order.begin(), order.end(), 0);
-    std::stable_partition(order.begin(), order.end(),
-                          [&](int k) { return !has_failed(begin + static_cast<std::size_t>(k)); });
+    for (std::size_t k = 0; k < count; ++k)
+      places[k] = place(begin + k);
+    std::stable_sort(order.begin(), order.end(), [&](int k, int l) { return places[k] < places[l]; });
     table.permute_from(begin, order);
     blocks.permute_pairs(begin, order);
   }
@@ -347,12 +364,6 @@ std::vector<BrokenBond> Bonds::fail_rows(const std::vector<BondBreak> &breaks, c
     });
   }
   failed_rows += breaks.size();
-  for (const BondBreak &b : breaks)
-    if (!failed_.empty()) {
-      const std::size_t block = static_cast<std::size_t>(first[b.row]) / block_rows;
-      ++failed_[block].all;
-      count_last(failed_[block], blocks.first_pair[block], blocks.first_pair[block + 1]);
-    }
   return failed;
 }
 

@@ -139,9 +139,12 @@ struct Bonds {
   std::size_t initial_count() const { return records.size(); }
   // Drops broken rows and rebuilds the blocks. Forces and sums stay the same to the last bit.
   void compact();
-  // For laws that keep failed rows last: moves failed rows behind the intact ones in every block where enough
-  // of them stand between intact rows. This changes the order of the sums of a block.
-  void order_failed();
+  // For laws that keep failed rows last: in every block where enough of them stand between others, moves
+  // failed rows behind the intact ones, and damaged ones between, if the law keeps those apart. This changes
+  // the order of the sums of a block.
+  void order_rows();
+  // To call when rows of this block have failed or become damaged.
+  void look_at_order(std::size_t block);
   // Keeps the rows of the marked blocks of particles and drops the others; records stay.
   void keep_blocks(const std::vector<char> &marked);
   // After rows were put into `table`: counts the broken rows; count_and_cut() also rebuilds the blocks.
@@ -177,14 +180,12 @@ private:
   template <class F>
   auto with_memory(std::size_t row, const F &f) const;
   void add_history();
-  struct Failed { // rows of a block
-    int all = 0;
-    int last = 0; // number of them behind the last intact row
-  };
-  void count_last(Failed &failed, std::size_t begin, std::size_t end) const;
+  // Of a row in its block: 0 sound, 1 damaged and apart, 2 failed.
+  int place(std::size_t row) const;
+  bool in_disorder(std::size_t begin, std::size_t end) const;
   std::size_t particles_ = 0;
   bool rotation_ = false;
-  std::vector<Failed> failed_; // per block of particles; only for laws that keep failed rows last
+  std::vector<char> disorder_; // per block of particles; only for laws that keep failed rows last
   void cut_blocks();
   void require_whole(const StateSource &from, const std::string &at) const;
 };

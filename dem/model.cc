@@ -103,7 +103,7 @@ void Model::begun(double dt) {
   }
   if (bonds) {
     StageClock::Lap lap(clock, Stage::bonds);
-    bonds->order_failed();
+    bonds->order_rows();
   }
   known_breaks_ = broken_tension + broken_shear;
   if (exchange_) start_exchange(dt);

@@ -56,7 +56,8 @@ struct BondColumns {
 
 // Results of a pass over a block's bonds.
 struct BlockFindings {
-  bool reached = false; // a bond may be at or above its strength; or a cohesive bond has failed in this step
+  // A bond may be at or above its strength; or a cohesive bond has failed, or been damaged, in this step.
+  bool reached = false;
   double dashpot_power = 0; // W, sum of the dashpots' (force now + force before) times opening velocity
   std::size_t first_reached = 0, end_reached = 0; // range of rows that contains all such bonds
 };

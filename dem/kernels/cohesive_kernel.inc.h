@@ -113,24 +113,35 @@ PLATEN_INLINE void scatter_response(const Ends &ends, const CohesiveGeometry<Sim
   }
 }
 
+// What has become of a SIMD vector of bonds in this step.
+struct LaneChanges {
+  Simd failed;            // positive where one has failed
+  bool by_damage = false; // one has been damaged that was not; of laws that keep these apart
+  PLATEN_INLINE bool any() const { return by_damage || any_positive(failed); }
+};
+
 // Response of bonds from their full history and motion.
 template <class Rows, bool factors, class Law>
-PLATEN_INLINE Simd add_lanes_by_motion(const CohesiveColumns &c, const Law &law, std::size_t k,
-                                       const Ends &ends, double dt) {
+PLATEN_INLINE LaneChanges add_lanes_by_motion(const CohesiveColumns &c, const Law &law, std::size_t k,
+                                              const Ends &ends, double dt) {
   const CohesiveGeometry<Simd> g = geometry<Law>(c.bonds, k, factors);
   typename Law::template State<Simd> s;
   for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
   const CohesiveMotion<Simd> m = motion_of<Rows, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt);
+  const Simd before = law.damage_of(s);
   const CohesiveResponse<Simd> response = law(s, g, m);
   for_each_memory(c.memory, k, s, [](auto *column, const auto &member) { store(column, member); });
   scatter_response<Rows, Law>(ends, g, m.distance, response);
-  return response.failed_now;
+  LaneChanges changes{response.failed_now};
+  if constexpr (keeps_damaged_apart<Law>)
+    changes.by_damage = any_positive(where_positive(before, Simd(0.0), law.damage_of(s)));
+  return changes;
 }
 
 // The same as a separate function, so that the loop over intact bonds keeps its registers.
 template <class Rows, bool factors, class Law>
-[[gnu::noinline]] Simd add_broken_lanes(const CohesiveColumns &c, const Law &law, std::size_t k,
-                                        const Ends &ends, double dt) {
+[[gnu::noinline]] LaneChanges add_broken_lanes(const CohesiveColumns &c, const Law &law, std::size_t k,
+                                               const Ends &ends, double dt) {
   return add_lanes_by_motion<Rows, factors>(c, law, k, ends, dt);
 }
 
@@ -165,22 +176,23 @@ PLATEN_INLINE void add_dashpots(const BondColumns &c, std::size_t k, const Ends 
 
 // A SIMD vector with bonds that are damaged or broken or may become so, from their full history.
 template <class Rows, bool factors, bool dashpots, class Law>
-PLATEN_INLINE Simd add_any_lanes(const CohesiveColumns &c, const Law &law, std::size_t k, const Ends &ends,
+PLATEN_INLINE bool add_any_lanes(const CohesiveColumns &c, const Law &law, std::size_t k, const Ends &ends,
                                  double dt, PowerSum &power) {
-  const Simd failed = add_broken_lanes<Rows, factors>(c, law, k, ends, dt);
-  if constexpr (dashpots) add_dashpots_apart<Rows>(c.bonds, k, ends, failed, power);
-  return failed;
+  const LaneChanges changes = add_broken_lanes<Rows, factors>(c, law, k, ends, dt);
+  if constexpr (dashpots) add_dashpots_apart<Rows>(c.bonds, k, ends, changes.failed, power);
+  return changes.any();
 }
 
+// Returns whether a bond has failed, or its place among the rows may have changed.
 template <class Rows, bool factors, bool dashpots, class Law>
-PLATEN_INLINE Simd add_lanes(const CohesiveColumns &c, const Law &law, std::size_t k, const Ends &ends,
+PLATEN_INLINE bool add_lanes(const CohesiveColumns &c, const Law &law, std::size_t k, const Ends &ends,
                              double dt, PowerSum &power) {
   typename Law::template State<Simd> s;
   for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
   if constexpr (keeps_failed_last<Law>)
     if (all_positive(law.failed(s))) { // failed bonds have no dashpots
       add_lanes_of_broken<Rows, factors>(c, law, k, ends, dt);
-      return Simd(0.0);
+      return false;
     }
   if constexpr (has_quick_path<Law>) {
     const CohesiveGeometry<Simd> g = geometry<Law>(c.bonds, k, factors);
@@ -198,7 +210,7 @@ PLATEN_INLINE Simd add_lanes(const CohesiveColumns &c, const Law &law, std::size
       done = advance(motion_of<Rows, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt));
     else
       done = advance(PairAtRest<Rows>{ends});
-    if (done) return Simd(0.0);
+    if (done) return false;
   }
   return add_any_lanes<Rows, factors, dashpots>(c, law, k, ends, dt, power);
 }
@@ -231,8 +243,8 @@ BlockFindings compute_forces(const CohesiveColumns &c, const BlockColumns &block
   gather<Rows>(c.bonds, block);
   BlockFindings found;
   PowerSum power;
-  const auto look = [&](std::size_t at, std::size_t end, const Simd &failed) {
-    if (any_positive(failed)) add_reached(found, at, end);
+  const auto look = [&](std::size_t at, std::size_t end, bool changed) {
+    if (changed) add_reached(found, at, end);
   };
   std::size_t k = first;
   for (; k + lanes <= last; k += lanes) {

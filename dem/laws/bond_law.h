@@ -62,6 +62,16 @@ inline bool failed_rows_last(const BondLaw &law) {
   return std::visit([](const auto &l) { return keeps_failed_last<std::decay_t<decltype(l)>>; }, law);
 }
 
+// Of those, laws that leave their quick path wherever a bond of a SIMD vector is damaged, and damage many
+// bonds long before they fail: damaged rows stand between the others.
+template <class Law, class = void>
+constexpr bool keeps_damaged_apart = false;
+template <class Law>
+constexpr bool keeps_damaged_apart<Law, std::enable_if_t<Law::damaged_rows_apart>> = true;
+inline bool damaged_rows_apart(const BondLaw &law) {
+  return std::visit([](const auto &l) { return keeps_damaged_apart<std::decay_t<decltype(l)>>; }, law);
+}
+
 // Laws whose quick path (cohesive_form.h) reads how a bond's particles move; others do so where a bond is
 // broken or breaks, or never.
 template <class Law, class = void>

@@ -105,7 +105,7 @@ struct FacetBond {
   bool advance_intact(State<Real> &s, const CohesiveGeometry<Real> &g, const Pair &pair,
                       CohesiveResponse<Real> &r, bool &yielded) const;
   // As in yielding_parallel_bond.h.
-  static constexpr bool failed_rows_last = true;
+  static constexpr bool failed_rows_last = true, damaged_rows_apart = true;
   template <class Real>
   bool stays_apart(const State<Real> &s, const CohesiveGeometry<Real> &g,
                    const Triple<Real> &distance) const {

@@ -1,7 +1,6 @@
 #include "tests/dem/broken_specimens.h"
 
 #include "dem/packing/advancing_front.h"
-#include "tests/dem/examples.h"
 
 namespace platen::dem::examples {
 namespace {
@@ -21,8 +20,8 @@ BondLayout layout() {
 
 } // namespace
 
-Cylinder::Cylinder()
-    : shape(packed().shape), particles(packed(), 2400, true), bonds(particles, layout(), *bonded().bond) {}
+Cylinder::Cylinder(const BondParameters &of_bonds)
+    : shape(packed().shape), particles(packed(), 2400, true), bonds(particles, layout(), of_bonds) {}
 
 void Cylinder::cut_rows(const std::function<int(std::size_t row)> &label) {
   break_rows_where(bonds, particles, [&](std::size_t k) {

@@ -7,6 +7,7 @@
 #include "dem/bonds.h"
 #include "dem/packing/specimen.h"
 #include "dem/particles.h"
+#include "tests/dem/examples.h"
 
 namespace platen::dem::examples {
 
@@ -16,7 +17,7 @@ struct Cylinder {
   Shape shape;
   Particles particles;
   Bonds bonds;
-  Cylinder();
+  explicit Cylinder(const BondParameters &of_bonds = *bonded().bond);
   // Breaks bonds between spheres with different labels, and all of spheres labelled `crumbs`.
   static constexpr int crumbs = -1;
   void cut(const std::function<int(const Vector3 &centre)> &label);

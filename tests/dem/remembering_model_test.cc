@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/state.h"
 #include "dem/packing/advancing_front.h"
+#include "tests/dem/broken_specimens.h"
 #include "tests/dem/one_bond.h"
 
 namespace platen::dem {
@@ -69,9 +70,24 @@ CohesiveMotion<double> motion(const Particles &p, const Bonds &b, std::size_t k,
   return m;
 }
 
-// In every block all but a few of those that failed stand behind all that are whole, and no bond was lost.
-void expect_failed_last(Model &model) {
-  model.bonds->order_failed();
+// In every block fewer than eight of `these` rows stand before others.
+template <class These>
+void expect_last_in_blocks(const Bonds &b, const These &these) {
+  for (std::size_t block = 0; block < b.blocks.blocks(); ++block) {
+    int before_others = 0, all = 0;
+    for (std::size_t k = b.blocks.first_pair[block]; k < b.blocks.first_pair[block + 1]; ++k)
+      if (these(k))
+        ++all;
+      else
+        before_others = all;
+    EXPECT_LT(before_others, 8) << "block " << block << ", of " << all;
+  }
+}
+
+// In every block all but a few of those that failed stand behind all others, and of facets those that are
+// damaged behind all that are sound; no bond was lost.
+void expect_rows_in_order(Model &model) {
+  model.bonds->order_rows();
   const Bonds &b = *model.bonds;
   std::vector<int> seen(b.initial_count(), 0);
   for (std::size_t k = 0; k < b.size(); ++k) {
@@ -81,15 +97,9 @@ void expect_failed_last(Model &model) {
     ASSERT_EQ(b.second[k], b.record_second[record]) << "row " << k;
   }
   EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<std::ptrdiff_t>(seen.size()));
-  for (std::size_t block = 0; block < b.blocks.blocks(); ++block) {
-    int among_whole = 0, failed = 0;
-    for (std::size_t k = b.blocks.first_pair[block]; k < b.blocks.first_pair[block + 1]; ++k)
-      if (b.has_failed(k))
-        ++failed;
-      else
-        among_whole = failed;
-    EXPECT_LT(among_whole, 8) << "block " << block << ", " << failed << " have failed";
-  }
+  expect_last_in_blocks(b, [&b](std::size_t k) { return b.has_failed(k); });
+  if (std::holds_alternative<FacetBond>(b.law))
+    expect_last_in_blocks(b, [&b](std::size_t k) { return b.damage(k) > 0; });
 }
 
 // Row by row, from what each remembers.
@@ -108,6 +118,66 @@ BondTotals by_rows(const Particles &p, const Bonds &b) {
     });
   }
   return sum;
+}
+
+// Rows of the first block in their order, by record.
+std::vector<int> first_block(const Bonds &b) {
+  return {b.record.begin(), b.record.begin() + static_cast<std::ptrdiff_t>(b.blocks.first_pair[1])};
+}
+void set_damage(Bonds &b, std::size_t row, double damage) {
+  auto remembered = b.memory<FacetBond::State<double>>(row);
+  remembered.damage = damage;
+  b.set_memory(row, remembered);
+}
+
+TEST(row_order, a_block_is_sorted_when_eight_rows_stand_before_those_of_another_kind) {
+  Cylinder c(*facets().bond);
+  Bonds &b = c.bonds;
+  std::vector<int> expected = first_block(b);
+  ASSERT_GT(expected.size(), 60u);
+  for (const double damage : {.5, 1.}) { // damaged rows go behind sound ones, failed rows behind both
+    for (std::size_t n = 0; n < 7; ++n)
+      set_damage(b, 2 * n, damage);
+    b.look_at_order(0), b.order_rows();
+    EXPECT_EQ(first_block(b), expected) << damage;
+    set_damage(b, 14, damage);
+    for (std::size_t n = 8; n-- > 0;)
+      expected.erase(expected.begin() + 2 * static_cast<std::ptrdiff_t>(n));
+    for (std::size_t n = 0; n < 8; ++n)
+      expected.push_back(b.record[2 * n]);
+    b.look_at_order(0), b.order_rows();
+    EXPECT_EQ(first_block(b), expected) << damage;
+    for (std::size_t n = 0; n < 8; ++n)
+      EXPECT_EQ(b.damage(expected.size() - 8 + n), damage);
+  }
+  b.count_and_cut(); // as after a restart: nothing is in disorder
+  b.order_rows();
+  EXPECT_EQ(first_block(b), expected);
+  for (const std::size_t row : {0u, 1u}) // two more of each kind before others: too few
+    set_damage(b, row, row == 0 ? .5 : 1);
+  b.count_and_cut(), b.order_rows();
+  EXPECT_EQ(first_block(b), expected);
+}
+
+// Stretched until facets soften; none fails.
+TEST(row_order, rows_are_sorted_as_soon_as_they_are_damaged) {
+  ModelSettings tough = facets();
+  std::get<FacetBond::Parameters>(*tough.bond).fracture_energy = 20;
+  Model model(packed_box(12, 12, 12), tough);
+  Particles &p = model.particles;
+  const double dt = .3 * model.stable_step({}, 0).limit;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    p.velocity[i] = (2.5e-4 / (20 * dt)) * p.position[i];
+  step(model, dt, 21);
+  const Bonds &b = *model.bonds;
+  std::size_t damaged = 0;
+  for (std::size_t k = 0; k < b.size(); ++k)
+    damaged += b.damage(k) > 0;
+  EXPECT_EQ(b.failed_rows, 0u);
+  EXPECT_GT(damaged, 100u);
+  EXPECT_LT(damaged, b.size() - 100);
+  model.begin_step(dt);
+  expect_last_in_blocks(b, [&b](std::size_t k) { return b.damage(k) > 0; });
 }
 
 // By law; with rotation; with strengths of their own.
@@ -147,10 +217,10 @@ protected:
     if constexpr (std::is_same_v<Law, YieldingParallelBond>) {
       EXPECT_GT(model.broken_tension, 50);
       EXPECT_GT(model.broken_shear, 5);
-      expect_failed_last(model);
     } else {
       EXPECT_GT(damaged, 1u);
     }
+    if constexpr (!std::is_same_v<Law, ElastoDamagePlastic>) expect_rows_in_order(model);
   }
 
 private:
