@@ -123,6 +123,7 @@ public:
   double unbalanced() const;      // N, sum of the magnitudes of net forces at the end of the last step
   std::size_t touching_count() const;
   std::size_t intact_bonds() const;
+  std::vector<double> bond_losses() const; // of all ranks (measure/damage.h); needs bonds
   const KickSums &last_sums() const { return sums_; }
   const Motion &last_motion() const { return motion_; }
   const ModelSettings &settings() const { return settings_; }

@@ -1,8 +1,10 @@
 // A specimen that is cut over ranks: the work of a step during communication, and the collection of the data
 // of all ranks.
+#include <cstring>
 #include <utility>
 
 #include "base/parallel.h"
+#include "dem/measure/damage.h"
 #include "dem/model.h"
 
 namespace platen::dem {
@@ -72,6 +74,28 @@ void Model::gather_motion() {
   if (!exchange_ || !cut_) return;
   settle();
   exchange_->gather_motion(particles);
+}
+
+std::vector<double> Model::bond_losses() const {
+  std::vector<double> losses = dem::bond_losses(*bonds);
+  if (!exchange_ || !cut_ || !damaged_rows_apart(bonds->law)) return losses;
+  struct Loss {
+    std::size_t record;
+    double value;
+  };
+  std::vector<char> own;
+  for (const int record : bonds->record) {
+    const Loss loss{static_cast<std::size_t>(record), losses[static_cast<std::size_t>(record)]};
+    const char *bytes = reinterpret_cast<const char *>(&loss);
+    if (loss.value > 0) own.insert(own.end(), bytes, bytes + sizeof(Loss));
+  }
+  const std::vector<char> all = exchange_->all_bytes(own);
+  for (std::size_t at = 0; at < all.size(); at += sizeof(Loss)) {
+    Loss loss;
+    std::memcpy(&loss, all.data() + at, sizeof(Loss));
+    losses[loss.record] = loss.value;
+  }
+  return losses;
 }
 
 void Model::settle_state() {

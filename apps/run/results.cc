@@ -27,7 +27,8 @@ Pattern Results::measure_pattern(const coupling::PlatenTest &problem) const {
   if (axis_ == 2)
     p.failure =
         dem::measure_failure(problem.model.particles, bonds, problem.shape(), soundness_,
-                             has_fallen() ? state_at_peak_.motion_since(problem) : dem::MotionAfterPeak{});
+                             has_fallen() ? state_at_peak_.motion_since(problem) : dem::MotionAfterPeak{},
+                             problem.model.bond_losses());
   p.broken_tension = static_cast<double>(problem.model.broken(dem::BondState::broken_in_tension));
   p.broken_shear = static_cast<double>(problem.model.broken(dem::BondState::broken_in_shear));
   return p;

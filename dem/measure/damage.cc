@@ -28,10 +28,10 @@ Vector3 outward(const Vector3 &x, const Shape &shape) {
                                         : Vector3{0, std::copysign(1.0, x.y), 0};
 }
 
-struct Count {
-  int all = 0, some = 0;
-  void add(bool is) { ++all, some += is; }
-  double share() const { return all == 0 ? not_a_number : static_cast<double>(some) / all; }
+struct Mean {
+  double all = 0, sum = 0;
+  void add(double value) { all += 1, sum += value; }
+  double value() const { return all == 0 ? not_a_number : sum / all; }
 };
 
 constexpr std::size_t first_bonds = 20;
@@ -46,18 +46,28 @@ Vector3 reference_midpoint(const Particles &p, const Bonds &b, std::size_t recor
   return 0.5 * (p.reference_position[b.record_first[record]] + p.reference_position[b.record_second[record]]);
 }
 
-DamageByRegion damage_by_region(const Particles &p, const Bonds &b, const Shape &shape) {
+std::vector<double> bond_losses(const Bonds &b) {
+  std::vector<double> losses(b.initial_count());
+  for (std::size_t k = 0; k < losses.size(); ++k)
+    losses[k] = is_broken(b.state[k]);
+  if (damaged_rows_apart(b.law))
+    for (std::size_t k = 0; k < b.size(); ++k)
+      losses[static_cast<std::size_t>(b.record[k])] = b.damage(k);
+  return losses;
+}
+
+DamageByRegion damage_by_region(const Particles &p, const Bonds &b, const Shape &shape,
+                                const std::vector<double> &losses) {
   const double rc = half_width(shape), h = shape.height;
-  Count top, bottom, middle;
+  Mean top, bottom, middle;
   for (std::size_t k = 0; k < b.initial_count(); ++k) {
     const Vector3 m = reference_midpoint(p, b, k);
     if (from_axis(m, shape) >= 0.5 * rc) continue;
-    const bool broken = is_broken(b.state[k]);
-    if (m.z < 0.5 * rc) bottom.add(broken);
-    if (m.z > h - 0.5 * rc) top.add(broken);
-    if (std::abs(m.z - 0.5 * h) < 0.25 * rc) middle.add(broken);
+    if (m.z < 0.5 * rc) bottom.add(losses[k]);
+    if (m.z > h - 0.5 * rc) top.add(losses[k]);
+    if (std::abs(m.z - 0.5 * h) < 0.25 * rc) middle.add(losses[k]);
   }
-  return {top.share(), bottom.share(), middle.share()};
+  return {top.value(), bottom.value(), middle.value()};
 }
 
 std::vector<double> skin_opening(const std::vector<Vector3> &centre, const std::vector<Vector3> &displacement,
@@ -135,10 +145,10 @@ SplitPattern split_pattern(const Particles &p, const Bonds &b, const Shape &shap
 }
 
 double broken_near_midspan(const Particles &p, const Bonds &b, double depth) {
-  Count near;
+  Mean near;
   for (std::size_t k = 0; k < b.initial_count(); ++k)
     if (is_broken(b.state[k])) near.add(std::abs(reference_midpoint(p, b, k).x) <= 0.5 * depth);
-  return near.share();
+  return near.value();
 }
 
 } // namespace platen::dem

@@ -15,13 +15,18 @@ bool is_broken(int state); // of Bonds::state
 // Midpoint of the bond of a record, m.
 Vector3 reference_midpoint(const Particles &particles, const Bonds &bonds, std::size_t record);
 
-// Broken over initial bonds with their reference midpoint in a region; NaN if the region has no bond.
+// How far each initial bond is lost: 0 whole, 1 broken; of laws that damage many bonds long before they fail
+// (damaged_rows_apart), its damage. Of this rank's rows: Model::bond_losses() has those of all.
+std::vector<double> bond_losses(const Bonds &bonds);
+
+// Mean loss of the initial bonds with their reference midpoint in a region; NaN if the region has no bond.
 struct DamageByRegion {
   double end_top = 0, end_bottom = 0; // r < R_c/2 and within R_c/2 of the end plane
   double middle = 0;                  // r < R_c/2 and |z - H/2| < R_c/4
   double worse_end() const { return std::fmax(end_top, end_bottom); } // NaN is ignored
 };
-DamageByRegion damage_by_region(const Particles &particles, const Bonds &bonds, const Shape &shape);
+DamageByRegion damage_by_region(const Particles &particles, const Bonds &bonds, const Shape &shape,
+                                const std::vector<double> &losses);
 
 // Mean outward displacement of the skin (reference r > 0.8 R_c, at least one intact bond) in ten slices of
 // equal height from bottom to top, m; NaN for a slice without skin.

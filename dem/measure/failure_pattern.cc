@@ -1,6 +1,8 @@
 #include "dem/measure/failure_pattern.h"
 
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "base/pi.h"
 
@@ -25,14 +27,15 @@ bool one_plane(const FailureMeasures &m) {
 
 // A smooth barrel also has a still zone on each platen, as round and straight as a cone; but a cone separates
 // only if the bonds around it break.
-void require_broken(std::array<DeadZone, 2> &dead, const DeadZones &zones, const Bonds &b) {
+void require_broken(std::array<DeadZone, 2> &dead, const DeadZones &zones, const Bonds &b,
+                    const std::vector<double> &losses) {
   double all = 0, broken = 0;
   for (std::size_t k = 0; k < b.initial_count(); ++k) {
     const auto within = [&](End end) {
       return zones.members[end][b.record_first[k]] && zones.members[end][b.record_second[k]];
     };
     if (within(bottom_end) || within(top_end)) continue;
-    all += 1, broken += is_broken(b.state[k]);
+    all += 1, broken += losses[k];
   }
   if (broken >= least_broken_around * all) return;
   for (DeadZone &zone : dead)
@@ -73,18 +76,20 @@ Specimen specimen_before(const Particles &p, const Shape &shape) {
 }
 
 FailureMeasures measure_failure(const Particles &p, const Bonds &b, const Shape &shape,
-                                const Soundness &soundness, const MotionAfterPeak &motion) {
+                                const Soundness &soundness, const MotionAfterPeak &motion,
+                                std::vector<double> losses) {
+  if (losses.empty()) losses = bond_losses(b);
   FailureMeasures m;
   const DeadZones zones = find_dead_zones(specimen_before(p, shape), motion);
   m.dead = zones.at_end;
-  require_broken(m.dead, zones, b);
+  require_broken(m.dead, zones, b, losses);
   m.opening = zones.opening;
-  m.damage = damage_by_region(p, b, shape);
+  m.damage = damage_by_region(p, b, shape, losses);
   m.end_spread = end_spread(skin_opening(p, b, shape));
   m.planes = sum_up(find_crack_planes(p, b), b);
   for (const SoundPiece &piece : find_sound_pieces(p, b, shape, soundness))
     m.columns += piece.spans() && piece.share >= least_column;
-  m.broken_share = m.planes.broken / static_cast<double>(b.initial_count());
+  m.broken_share = std::accumulate(losses.begin(), losses.end(), 0.0) / static_cast<double>(losses.size());
   m.width = 2 * std::sqrt(shape.cross_section() / pi);
   m.height = shape.height;
   return m;

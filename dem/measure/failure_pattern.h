@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "dem/measure/cracks.h"
 #include "dem/measure/damage.h"
@@ -20,15 +21,17 @@ struct FailureMeasures {
   CrackPlanes planes;
   double end_spread = std::numeric_limits<double>::quiet_NaN(); // of the skin (damage.h)
   double columns = 0; // sound pieces from platen to platen, each at least a twentieth of the volume
-  double broken_share = std::numeric_limits<double>::quiet_NaN(); // of all bonds
+  double broken_share = std::numeric_limits<double>::quiet_NaN(); // mean loss of all bonds
   double width = 0, height = 0; // m, of the specimen; width of a circle with the area of its section
   void describe(Archive &archive);
 };
 // The specimen at its positions before the test.
 Specimen specimen_before(const Particles &particles, const Shape &shape);
-// Without a motion there are no cones by displacement.
+// Without a motion there are no cones by displacement. Ends, middle and the surroundings of cones are judged
+// by losses (damage.h; empty: of these bonds), planes and pieces by broken bonds.
 FailureMeasures measure_failure(const Particles &particles, const Bonds &bonds, const Shape &shape,
-                                const Soundness &soundness = {}, const MotionAfterPeak &motion = {});
+                                const Soundness &soundness = {}, const MotionAfterPeak &motion = {},
+                                std::vector<double> losses = {});
 
 enum class FailurePattern : std::int64_t { none, cones, shear_plane, splitting, crushing, undecided };
 inline constexpr std::array<const char *, 6> pattern_words{"none",      "cones",    "shear plane",
@@ -42,7 +45,7 @@ enum class DecidedBy : std::int64_t {
   two_cones,    // the parts that move with the platens are cones, one of them perhaps without its tip
   columns,      // two pieces or more from platen to platen
   steep_planes, // half of all broken bonds lie in planes along the axis
-  few_broken,   // 2 % of the bonds at most
+  few_broken,   // 2 % of the bonds at most are lost
   crushed_end   // the worse end has lost more than 0.4 of its bonds, and friction did not restrain the ends
 };
 struct FailureVerdict {

@@ -93,6 +93,68 @@ TEST(failure_pattern, two_planes_that_cross_are_no_cones) {
     }
 }
 
+double &damage(FacetBond::State<double> &s) {
+  return s.damage;
+}
+double &damage(ElastoDamagePlastic::State<double> &s) {
+  return s.tension_damage;
+}
+// `by` of a midpoint in `radius`.
+template <class Law>
+void damage_bonds(Cylinder &c, const std::function<double(const Vector3 &)> &by) {
+  for (std::size_t k = 0; k < c.bonds.size(); ++k) {
+    auto remembered = c.bonds.memory<typename Law::template State<double>>(k);
+    damage(remembered) = by(reference_midpoint(c.particles, c.bonds, k) / radius);
+    c.bonds.set_memory(k, remembered);
+  }
+}
+
+// Facets soften long before they fail: their mean damage counts. Interfaces count when they have failed.
+TEST(failure_pattern, ends_and_middle_of_facets_are_judged_by_their_damage) {
+  const auto of_place = [](const Vector3 &x) { return x.z < 15 ? .41 : x.z > h - 15 ? .3 : .05; };
+  Cylinder facet(*facets().bond), interface(*interfaces().bond);
+  damage_bonds<FacetBond>(facet, of_place), damage_bonds<ElastoDamagePlastic>(interface, of_place);
+  FailureMeasures m = measure_failure(facet.particles, facet.bonds, facet.shape);
+  EXPECT_NEAR(m.damage.end_bottom, .41, 1e-12);
+  EXPECT_NEAR(m.damage.end_top, .3, 1e-12);
+  EXPECT_NEAR(m.damage.middle, .05, 1e-12);
+  EXPECT_EQ(judge_failure(m).by, DecidedBy::crushed_end);
+  const FailureMeasures whole = measure_failure(interface.particles, interface.bonds, interface.shape);
+  EXPECT_EQ(whole.damage.worse_end(), 0);
+  EXPECT_EQ(judge_failure(whole).by, DecidedBy::few_broken);
+  const auto judged = [&](double at_ends, double elsewhere) {
+    damage_bonds<FacetBond>(facet, [=](const Vector3 &x) { return x.z < 15 ? at_ends : elsewhere; });
+    m = measure_failure(facet.particles, facet.bonds, facet.shape);
+    return judge_failure(m).by;
+  };
+  EXPECT_EQ(judged(.39, .05), DecidedBy::nothing);
+  EXPECT_EQ(judged(.0201, .0201), DecidedBy::nothing);
+  EXPECT_EQ(judged(.0199, .0199), DecidedBy::few_broken);
+  EXPECT_NEAR(m.broken_share, .0199, 1e-12);
+  damage_bonds<FacetBond>(facet, [](const Vector3 &) { return 0; });
+  facet.cut([](const Vector3 &x) { return x.z < 15 * radius ? Cylinder::crumbs : 1; });
+  EXPECT_EQ(measure_failure(facet.particles, facet.bonds, facet.shape).damage.end_bottom,
+            1); // broken is lost
+}
+
+// A still zone is a cone if a tenth of what is around it is lost.
+TEST(failure_pattern, cones_of_facets_lie_within_what_is_damaged) {
+  const Cone cone{{0, 0, 34}, {0, 0, -1}, 30 * degree};
+  const auto within = [&](const Vector3 &x) {
+    return cone.distance(x) < 0 || cone.distance({x.x, x.y, h - x.z}) < 0;
+  };
+  const Field moved = [&](const Vector3 &x) {
+    return !within(x) ? outwards(x) + half_way : x.z < h / 2 ? of_bottom : of_top;
+  };
+  Cylinder c(*facets().bond);
+  for (const double around : {.09, .115}) {
+    damage_bonds<FacetBond>(c, [&](const Vector3 &x) { return within(x) ? 0 : around; });
+    const FailureMeasures m = measure_failure(c.particles, c.bonds, c.shape, {},
+                                              motion_of(specimen_before(c.particles, c.shape), moved));
+    EXPECT_EQ(judge_failure(m).pattern, around > .1 ? FailurePattern::cones : FailurePattern::undecided);
+  }
+}
+
 // One end's cone may have lost its tip, not both.
 TEST(failure_pattern, both_ends_decide) {
   using V = DeadZoneVerdict;

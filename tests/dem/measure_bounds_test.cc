@@ -35,10 +35,10 @@ TEST(measure_bounds, damage_by_region_does_not_see_the_rim) {
     break_where(rim, [&](const Vector3 &m) { return off(m) >= .5 * rc; });
     break_where(core, [&](const Vector3 &m) { return off(m) < .5 * rc; });
     const Shape shape = square ? box(2 * rc, 2 * rc, rim.height()) : rim.shape;
-    const DamageByRegion none = damage_by_region(rim.particles, rim.bonds, shape);
+    const DamageByRegion none = damage_by_region(rim.particles, rim.bonds, shape, bond_losses(rim.bonds));
     for (const double share : {none.end_top, none.end_bottom, none.middle})
       EXPECT_EQ(share, 0) << square;
-    const DamageByRegion all = damage_by_region(core.particles, core.bonds, shape);
+    const DamageByRegion all = damage_by_region(core.particles, core.bonds, shape, bond_losses(core.bonds));
     for (const double share : {all.end_top, all.end_bottom, all.middle})
       EXPECT_EQ(share, 1) << square;
   }

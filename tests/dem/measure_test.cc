@@ -351,14 +351,15 @@ TEST(measure, damage_is_counted_where_it_is) {
   const double rc = specimen.shape.radius, h = specimen.shape.height;
   Model model(specimen, bonded());
   break_where(model, [&](const Vector3 &m) { return m.z > h - .5 * rc; });
-  DamageByRegion d = damage_by_region(model.particles, *model.bonds, specimen.shape);
+  DamageByRegion d =
+      damage_by_region(model.particles, *model.bonds, specimen.shape, bond_losses(*model.bonds));
   EXPECT_EQ(d.end_top, 1);
   EXPECT_EQ(d.end_bottom, 0);
   EXPECT_EQ(d.middle, 0);
   EXPECT_EQ(d.worse_end(), 1);
   break_where(model, [&](const Vector3 &m) { return std::abs(m.z - .5 * h) < .25 * rc; });
   model.bonds->compact(); // measures read the records, not the rows
-  d = damage_by_region(model.particles, *model.bonds, specimen.shape);
+  d = damage_by_region(model.particles, *model.bonds, specimen.shape, bond_losses(*model.bonds));
   EXPECT_EQ(d.middle, 1);
   EXPECT_EQ(d.end_bottom, 0);
   const BondCounts counts = bond_counts(model.particles, *model.bonds);
