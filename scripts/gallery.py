@@ -3,7 +3,7 @@
 
     scripts/gallery.py BUILD RUNS                   runs scenes that RUNS lacks, draws reports, prints the page
     scripts/gallery.py BUILD RUNS --write           ... and writes it to docs/gallery.md and docs/images/gallery; a
-                                                    long scene that RUNS lacks keeps what the page says of it
+                                                    scene that RUNS lacks keeps what the page says of it
     scripts/gallery.py BUILD RUNS --scene NAME ...  runs no scene but these, long ones too
     scripts/gallery.py --check                      runs none: every scene has its place, every picture is there
 
@@ -176,9 +176,9 @@ def sentence_of(section):
 
 
 def section(scene, result, kept):
-    """All that the page says of a scene. What it said before, where its run is long and not here."""
+    """All that the page says of a scene. What it said before, where its run is not here."""
     before = kept.get(scene.name, "")
-    if scene.cost and "\n|" in before and not result.summary and not result.fault:
+    if "\n|" in before and not result.summary and not result.fault:
         return before
     parts, see = [f"### {scene.name}"], sentence_of(before)
     if result.summary:
