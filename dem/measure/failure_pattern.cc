@@ -43,6 +43,13 @@ void require_broken(std::array<DeadZone, 2> &dead, const DeadZones &zones, const
       zone.verdict = DeadZoneVerdict::unbroken;
 }
 
+// Planes of failed bonds against all that is lost: of facets most is damage outside of them.
+void count_losses(CrackPlanes &planes, double lost) {
+  if (!(lost > 0)) return;
+  planes.steep_share *= planes.broken / lost;
+  planes.broken = lost;
+}
+
 // Two cones; one of them may have lost its tip and be a dome.
 bool two_cones(const DeadZone &one, const DeadZone &other) {
   const auto dome = [](const DeadZone &d) { return d.verdict == DeadZoneVerdict::dome; };
@@ -89,7 +96,8 @@ FailureMeasures measure_failure(const Particles &p, const Bonds &b, const Shape 
   m.planes = sum_up(find_crack_planes(p, b), b);
   for (const SoundPiece &piece : find_sound_pieces(p, b, shape, soundness))
     m.columns += piece.spans() && piece.share >= least_column;
-  m.broken_share = std::accumulate(losses.begin(), losses.end(), 0.0) / static_cast<double>(losses.size());
+  count_losses(m.planes, std::accumulate(losses.begin(), losses.end(), 0.0));
+  m.broken_share = m.planes.broken / static_cast<double>(losses.size());
   m.width = 2 * std::sqrt(shape.cross_section() / pi);
   m.height = shape.height;
   return m;

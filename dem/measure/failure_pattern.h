@@ -18,7 +18,7 @@ struct FailureMeasures {
                         std::numeric_limits<double>::quiet_NaN()};
   std::array<DeadZone, 2> dead;                              // [bottom_end], [top_end]: cones by displacement
   double opening = std::numeric_limits<double>::quiet_NaN(); // m, of the skin since the peak, U (dead_zone.h)
-  CrackPlanes planes;
+  CrackPlanes planes;                                        // shares of all losses
   double end_spread = std::numeric_limits<double>::quiet_NaN(); // of the skin (damage.h)
   double columns = 0; // sound pieces from platen to platen, each at least a twentieth of the volume
   double broken_share = std::numeric_limits<double>::quiet_NaN(); // mean loss of all bonds
@@ -41,10 +41,10 @@ inline const char *word_of(FailurePattern pattern) {
 }
 enum class DecidedBy : std::int64_t {
   nothing,      // no rule below holds
-  one_plane,    // half of all broken bonds lie in one plane that crosses the specimen
+  one_plane,    // half of all lost bonds lie in one plane that crosses the specimen
   two_cones,    // the parts that move with the platens are cones, one of them perhaps without its tip
   columns,      // two pieces or more from platen to platen
-  steep_planes, // half of all broken bonds lie in planes along the axis
+  steep_planes, // half of all lost bonds lie in planes along the axis
   few_broken,   // 2 % of the bonds at most are lost
   crushed_end   // the worse end has lost more than 0.4 of its bonds, and friction did not restrain the ends
 };

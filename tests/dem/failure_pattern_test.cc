@@ -137,6 +137,26 @@ TEST(failure_pattern, ends_and_middle_of_facets_are_judged_by_their_damage) {
             1); // broken is lost
 }
 
+// A plane of failed facets decides where as much is lost in it as elsewhere.
+TEST(failure_pattern, a_plane_of_facets_is_compared_with_all_that_is_lost) {
+  for (const double angle : {0., 30.}) {
+    Cylinder c(*facets().bond);
+    c.cut([=](const Vector3 &x) {
+      return (x.z - h / 2 * radius) * std::sin(angle * degree) > x.x * std::cos(angle * degree) ? 1 : 2;
+    });
+    const double broken = static_cast<double>(c.bonds.initial_count() - c.bonds.size());
+    for (const double share : {.9, 1.1}) { // lost elsewhere, over what is broken in the plane
+      const double damage = share * broken / static_cast<double>(c.bonds.size());
+      damage_bonds<FacetBond>(c, [=](const Vector3 &) { return damage; });
+      const FailureMeasures m = measure_failure(c.particles, c.bonds, c.shape);
+      EXPECT_NEAR(m.planes.broken, (1 + share) * broken, 1e-9 * broken);
+      EXPECT_NEAR(m.broken_share, (1 + share) * broken / static_cast<double>(c.bonds.initial_count()), 1e-12);
+      EXPECT_EQ(judge_failure(m).by == DecidedBy::one_plane, share < 1) << angle << " " << share;
+      EXPECT_EQ(m.planes.steep_share > .5, angle == 0 && share < 1);
+    }
+  }
+}
+
 // A still zone is a cone if a tenth of what is around it is lost.
 TEST(failure_pattern, cones_of_facets_lie_within_what_is_damaged) {
   const Cone cone{{0, 0, 34}, {0, 0, -1}, 30 * degree};
