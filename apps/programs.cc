@@ -26,10 +26,10 @@ Paths joined_lists(std::initializer_list<Paths> lists) {
 
 // Of tests that are told whole: not of discs, nor of trials.
 Paths of_whole_tests() {
-  return {"Platens/Sides",         "Platens/Edge gap",       "Platens/Span", "Platens/Left",
-          "Platens/Right",         "Platens/Front",          "Platens/Back", "Platens/Top/Seat",
-          "Loading/Start strain",  "Loading/Wave crossings", "Loading/Test", "Loading/Wall stiffness",
-          "Loading/Pressure path", "Loading/Stage"};
+  return {"Platens/Sides",         "Platens/Edge gap",       "Platens/Span",         "Platens/Left",
+          "Platens/Right",         "Platens/Front",          "Platens/Back",         "Platens/Top/Seat",
+          "Loading/Start strain",  "Loading/Wave crossings", "Loading/Test",         "Loading/Wall stiffness",
+          "Loading/Pressure path", "Loading/Stage",          "Specimen/Notch depth", "Specimen/Notch width"};
 }
 Paths of_cells() {
   return {"Specimen/Section",       "Sleeve",
@@ -39,6 +39,8 @@ Paths of_cells() {
 Paths of_platens() {
   return {"Specimen/Seat",
           "Specimen/Section",
+          "Specimen/Notch depth",
+          "Specimen/Notch width",
           "Bond/Calibrated radius",
           "Bond/Calibrated width",
           "Bond/Modulus exponent",
@@ -59,7 +61,8 @@ Program pack() {
   p.reads = {"Scene",        "Specimen",  "Material/Density",    "Material/Density of",
              "Effects/Bond", "Phases/By", "Phases/Radius above", "Phases/File",
              "Expect"};
-  p.but = {"Scene/Quality", "Specimen/Seat", "Specimen/Section", "Specimen/Cache"};
+  p.but = {"Scene/Quality",  "Specimen/Seat",        "Specimen/Section",
+           "Specimen/Cache", "Specimen/Notch depth", "Specimen/Notch width"};
   return p;
 }
 

@@ -27,6 +27,7 @@ public:
     if (presses_by_hertz(s_)) hertz();
     if (l_.start_strain > 0) start();
     if (p_.span > 0) bending();
+    if (shape_ != nullptr && shape_->notch.is_there()) notch(*shape_);
     if (!l_.unload_at.empty()) cycles();
     lateral();
     if (l_.cell) cell(*l_.cell);
@@ -154,6 +155,17 @@ private:
                   text_of(shape_->width_x - p_.strip_width) + " m.");
   }
 
+  void notch(const dem::Shape &shape) {
+    constexpr double deepest = 0.9; // of the bar
+    if (!(p_.span > 0))
+      return refuse("specimen.notch_depth", "is of bars that are bent in three points. Allowed: 0.");
+    refuse_if(shape.notch.depth > deepest * shape.height, "specimen.notch_depth",
+              "leaves less than a tenth of the depth, " + text_of(shape.height) + " m. Allowed: up to " +
+                  text_of(deepest * shape.height) + " m.");
+    refuse_if(shape.notch.width >= p_.span - p_.strip_width, "specimen.notch_width",
+              "reaches over the lower strips. Allowed: below " + text_of(p_.span - p_.strip_width) + " m.");
+  }
+
   void cycles() {
     refuse_if(!std::is_sorted(l_.unload_at.begin(), l_.unload_at.end()), "loading.unload_at",
               "does not ascend.");
@@ -206,7 +218,7 @@ private:
     const auto with = [&](bool broken, const std::string &member, const std::string &allowed) {
       refuse_if(broken, member, "does not go with stages. Allowed: " + allowed + ".");
     };
-    with(l_.tension || l_.wall || alone() || p_.span > 0, "loading.tension", "compression");
+    with(l_.tension || l_.wall || alone(), "loading.tension", "compression, three point bending");
     with(l_.servo, "loading.servo", "motion");
     with(l_.start_strain > 0, "loading.start_strain", "0");
     with(!l_.unload_at.empty(), "loading.unload_at", "none");
@@ -217,6 +229,8 @@ private:
     scope.cell = l_.cell.has_value();
     scope.rate = !std::isnan(l_.rate) || l_.wave_transits > 0;
     scope.bonded = bonded();
+    scope.bent = p_.span > 0;
+    scope.notched = scope.bent && (shape_ == nullptr || shape_->notch.is_there());
     try {
       require_stages(l_.stages, scope);
     } catch (const BadSetup &e) {
@@ -234,8 +248,7 @@ private:
   bool has_servo() const {
     const auto on_top = [](const SideAsk &ask) {
       const std::vector<Side> asked = sides_of(ask.side);
-      return ask.ask != SideAsk::Ask::rate && ask.ask != SideAsk::Ask::hold &&
-             ask.ask != SideAsk::Ask::circumferential &&
+      return ask.ask != SideAsk::Ask::rate && ask.ask != SideAsk::Ask::hold && !widening_of(ask.ask) &&
              std::count(asked.begin(), asked.end(), Side::top) > 0;
     };
     return l_.servo || l_.cell ||

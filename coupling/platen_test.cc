@@ -74,6 +74,7 @@ PlatenTest::PlatenTest(const dem::Specimen &specimen, const PlatenTestSettings &
   add_platens(specimen);
   section_ = dem::solid_section(specimen, bent() ? 0 : loaded_axis(*this));
   require_one_section();
+  if (notched()) measure_mouth();
   facts_ = facts_of(specimen, settings.model, model);
   facts_.voigt_modulus /= section_share(); // per volume of the load-bearing part; wave speeds are the same
   for (double &modulus : facts_.affine_moduli)
@@ -104,6 +105,17 @@ void PlatenTest::require_one_section() const {
   throw BadSetup("net_section", "is not one: the spheres fill " + percent(section_.least) + " to " +
                                     percent(section_.largest) +
                                     " % of the shape's section by height. Allowed: nominal.");
+}
+
+void PlatenTest::measure_mouth() {
+  try {
+    mouth_.emplace(model.particles, shape().notch, model.bonds.get());
+  } catch (const std::invalid_argument &e) {
+    throw BadSetup("specimen.notch_depth", std::string("has no mouth to measure: ") + e.what() +
+                                               ". Allowed: 0, or " +
+                                               text_of(2 * dem::mean_radius(model.particles)) +
+                                               " m and more, two mean radii, with spheres on both sides.");
+  }
 }
 
 void PlatenTest::require_in_range() const {

@@ -97,7 +97,9 @@ public:
   // Pa, over the specimen's face on that side; NaN without platens.
   double stress(Side side) const;
   double closure_strain(int axis) const override;
-  double circumferential_strain() const override;
+  double widening(Widening of) const override;
+  double circumferential_strain() const;
+  double mouth_opening() const;                                    // m, of a notch; NaN without one
   const MachineSpring *machine() const { return top().machine(); } // null: a rigid one
   double machine_closure() const;          // m, of the crosshead and the bottom platen; NaN without a spring
   double confining_pressure() const;       // Pa, of a cell, as it acts on the lateral surface, or on the wall
@@ -110,7 +112,10 @@ public:
   double nominal_area() const {
     return bent() ? three_points().nominal_area() : section_share() * shape().cross_section();
   }
-  dem::ThreePoints three_points() const { return {settings_.platens.span, shape().width_y, shape().height}; }
+  bool notched() const { return shape().notch.is_there(); }
+  dem::ThreePoints three_points() const {
+    return {settings_.platens.span, shape().width_y, shape().height, shape().notch.depth};
+  }
   double bending_period()
       const; // s, first period of the bar on its supports: slender, with the Voigt modulus
   double midspan_moment() const; // N m, of a bent bar; positive: tension on the lower side
@@ -140,6 +145,7 @@ protected:
 private:
   void require_in_range() const;
   void require_one_section() const;
+  void measure_mouth();
   void add_platens(const dem::Specimen &specimen);
   void require_cover(Side side) const;
   void seat_platens(const dem::Specimen &specimen);
@@ -159,6 +165,7 @@ private:
   const SkinPressure *skin_ = nullptr;
   const LateralWall *wall_ = nullptr;
   mutable std::optional<dem::Circumference> circumference_; // made when it is needed
+  std::optional<dem::MouthOpening> mouth_;                  // of a notch
   double ramp_ = 0, cell_ramp_ = 0;                         // s
   double servo_slowness_ = 1; // of the stages' servos, relative to a cell's fastest
   dem::SolidSection section_;

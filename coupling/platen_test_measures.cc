@@ -59,9 +59,23 @@ double PlatenTest::circumferential_strain() const {
   return circumference_->strain(model.particles);
 }
 
+double PlatenTest::mouth_opening() const {
+  return mouth_ ? (*mouth_)(model.particles) : none;
+}
+
+double PlatenTest::widening(Widening of) const {
+  return of == Widening::mouth ? mouth_opening() : circumferential_strain();
+}
+
+// Of a bar that is bent nothing is led by its circumference.
 std::vector<int> PlatenTest::rows_measured() const {
-  const auto &stages = settings_.loading.stages;
-  if (std::none_of(stages.begin(), stages.end(), needs_circumferential_strain)) return {};
+  const auto needed = [&](Widening of) {
+    const auto &stages = settings_.loading.stages;
+    return std::any_of(stages.begin(), stages.end(),
+                       [of](const StageSettings &stage) { return needs(stage, of); });
+  };
+  if (needed(Widening::mouth)) return mouth_->rows();
+  if (!needed(Widening::circumference)) return {};
   circumferential_strain();
   return circumference_->rows();
 }

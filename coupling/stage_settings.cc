@@ -49,11 +49,17 @@ std::vector<Side> sides_of(SideGroup group) {
   }
 }
 
-bool needs_circumferential_strain(const StageSettings &stage) {
+std::optional<Widening> widening_of(Ask ask) {
+  if (ask == Ask::circumferential) return Widening::circumference;
+  if (ask == Ask::mouth_opening) return Widening::mouth;
+  return std::nullopt;
+}
+
+bool needs(const StageSettings &stage, Widening of) {
   return std::any_of(stage.asks.begin(), stage.asks.end(),
-                     [](const SideAsk &ask) { return ask.ask == Ask::circumferential; }) ||
+                     [&](const SideAsk &ask) { return widening_of(ask.ask) == of; }) ||
          std::any_of(stage.until.begin(), stage.until.end(),
-                     [](const StageUntil &end) { return end.what == Reached::circumferential_strain; });
+                     [&](const StageUntil &end) { return widening_of(end.what) == of; });
 }
 
 namespace {
@@ -82,16 +88,13 @@ public:
           fail(stage_.asks[k], "asks what `" + member_ + name_of(stage_.asks[other].side) +
                                    "` asks too. Allowed: each side once.");
     }
-    const auto drives = [](const SideAsk &ask) { return ask.ask == Ask::circumferential; };
-    if (std::count_if(stage_.asks.begin(), stage_.asks.end(), drives) > 1)
-      fail("axial", "is led twice by the circumferential strain.");
   }
 
   void until() const {
     if (stage_.until.empty())
       fail("until",
            "is not set: the stage has no end. Allowed: strain, strain change, stress, share of peak, "
-           "share of start, circumferential strain, time, settled.");
+           "share of start, circumferential strain, cmod, time, settled.");
     for (const StageUntil &end : stage_.until)
       one(end);
   }
@@ -118,20 +121,32 @@ private:
       fail(ask, "asks a side that nothing presses. Allowed: sides with a platen, and lateral in a cell.");
     if (ask.ask == Ask::pressure && !pressed)
       fail(ask, "asks a pressure of platens. Allowed: stress, or lateral in a cell.");
-    if (pressed && (ask.ask == Ask::rate || ask.ask == Ask::stress || ask.ask == Ask::circumferential))
+    if (pressed && (ask.ask == Ask::rate || ask.ask == Ask::stress || widening_of(ask.ask)))
       fail(ask, "asks what a cell cannot. Allowed: pressure, share of a side, hold, free.");
     if ((ask.ask == Ask::stress || ask.ask == Ask::pressure) && !(ask.value >= 0))
       fail(ask, "pulls. Allowed: 0 and more, compression.");
-    const bool by_loading =
-        (ask.ask == Ask::rate && std::isnan(ask.value)) || ask.ask == Ask::circumferential;
+    const bool by_loading = (ask.ask == Ask::rate && std::isnan(ask.value)) || widening_of(ask.ask);
     if (by_loading && !scope_.rate)
       fail(ask, "names no rate, nor does the loading. Allowed: a speed, or a `loading.rate`.");
     if (ask.ask == Ask::rate && ask.value == 0) fail(ask, "goes nowhere. Allowed: hold.");
     if (ask.ask == Ask::share) share(ask);
-    if (ask.ask == Ask::circumferential && ask.side != SideGroup::axial)
-      fail(ask, "is led by the circumferential strain. Allowed: axial alone is.");
-    if (ask.ask == Ask::circumferential && !(ask.value > 0))
-      fail(ask, "does not let the specimen widen. Allowed: above 0.");
+    if (scope_.bent) bent(ask);
+    if (const auto of = widening_of(ask.ask)) widening(ask, *of);
+  }
+
+  // Servos are tuned to a specimen that is pressed along its length; a bar that is bent is far softer.
+  void bent(const SideAsk &ask) const {
+    if (ask.ask != Ask::rate && ask.ask != Ask::hold && ask.ask != Ask::mouth_opening)
+      fail(ask, "does not go with three point bending. Allowed: rate, unload, hold, cmod rate.");
+  }
+
+  void widening(const SideAsk &ask, Widening of) const {
+    if (ask.side != SideGroup::axial)
+      fail(ask, std::string("is led by the ") +
+                    (of == Widening::mouth ? "opening of a notch" : "circumferential strain") +
+                    ". Allowed: axial alone is.");
+    if (!(ask.value > 0)) fail(ask, "does not let the specimen widen. Allowed: above 0.");
+    if (of == Widening::mouth && !scope_.notched) fail(ask, no_notch);
   }
 
   void share(const SideAsk &ask) const {
@@ -161,6 +176,9 @@ private:
     if (!std::isfinite(end.value)) fail("until", "has no value.");
     if (end.what != Reached::time && end.what != Reached::stress && end.value <= 0)
       fail("until", "ends at " + text_of(end.value) + ". Allowed: above 0.");
+    if (end.what == Reached::mouth_opening && !scope_.notched) fail("until", no_notch);
+    if (end.what == Reached::circumferential_strain && scope_.bent)
+      fail("until", "looks at a circumference, and a bar is bent. Allowed: cmod, of a notched bar.");
     if (end.what == Reached::time && !(end.value > 0))
       fail("until", "ends at once. Allowed: a time above 0 s.");
     const bool share = end.what == Reached::share_of_peak || end.what == Reached::share_of_start;
@@ -182,6 +200,9 @@ private:
       return ask.side == end.of && ask.ask == Ask::stress && end.value > ask.value;
     });
   }
+
+  static constexpr const char *no_notch =
+      "looks at the mouth of a notch, and there is none. Allowed: of a bar that is notched and bent.";
 
   const StageSettings &stage_;
   std::string member_;

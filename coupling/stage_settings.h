@@ -36,6 +36,7 @@ struct SideAsk {
     hold,            // platens stand still; a pressure stays constant
     free,            // no stress
     circumferential, // 1/s, circumferential strain rate: the axial platens close or open to reach it
+    mouth_opening,   // m/s, of the mouth of a notch, likewise
   };
   SideGroup side = SideGroup::axial;
   Ask ask = Ask::hold;
@@ -64,8 +65,10 @@ struct StageSettings {
   double latest = not_given;
 };
 
-// Whether the stage is controlled or ended by the circumferential strain.
-bool needs_circumferential_strain(const StageSettings &stage);
+// By which widening the axial platens are controlled; none where they are asked something else.
+std::optional<Widening> widening_of(SideAsk::Ask ask);
+// Whether the stage is controlled or ended by it.
+bool needs(const StageSettings &stage, Widening of);
 
 // What a test has for its stages.
 struct StageScope {
@@ -73,6 +76,8 @@ struct StageScope {
   bool cell = false;         // presses the lateral surface
   bool rate = false;         // of the loading is given, or follows from wave transits
   bool bonded = true;        // ramps follow from the wave transit over the specimen
+  bool bent = false;         // in three points
+  bool notched = false;      // or it is not known yet whether it is
 };
 
 // Throws BadSetup for invalid stages: its member is "loading.stage_2.top" or "loading.stage_2.until".

@@ -14,7 +14,6 @@
 #include "dem/cell_grid.h"
 #include "dem/kernels/cohesive_kernel.h"
 #include "dem/measure/damage.h"
-#include "dem/packing/specimen.h"
 #include "dem/pairs_in_state.h"
 
 namespace platen::dem {
@@ -50,6 +49,14 @@ std::vector<IndexPair> pairs_in_range(const Vector3 *position, const double *rad
   };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), out_of_range), pairs.end());
   return pairs;
+}
+
+void drop_parted(std::vector<IndexPair> &pairs, const Particles &particles, const Notch &notch) {
+  if (!notch.is_there()) return;
+  const auto is_parted = [&](const IndexPair &p) {
+    return notch.parts(particles.position[p.first], particles.position[p.second]);
+  };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_parted), pairs.end());
 }
 
 // Allowed values of a history variable, by its name in the laws.
@@ -110,14 +117,16 @@ double packing_factor(const Specimen &s, const BondLayout &layout) {
   return 40 * porosity * static_cast<double>(s.size()) / (2 * pairs);
 }
 
-Bonds::Bonds(const Particles &particles, const BondLayout &layout, const BondParameters &parameters)
+Bonds::Bonds(const Particles &particles, const BondLayout &layout, const BondParameters &parameters,
+             const Notch &notch)
     : law(bond_law(parameters)), particles_(particles.size()), rotation_(particles.has_rotation()) {
   require_in_range(layout);
   require_given(layout, "modulus", layout.modulus);
   if (layout.radius_rule == RadiusRule::given) require_given(layout, "radius", layout.radius);
   if (needs_rotation(law) && !rotation_) throw std::invalid_argument("beams need spheres that turn");
-  const std::vector<IndexPair> pairs =
+  std::vector<IndexPair> pairs =
       pairs_in_range(particles.position.data(), particles.radius.data(), particles.size(), layout);
+  drop_parted(pairs, particles, notch);
 
   table.resize(pairs.size());
   records.resize(pairs.size());

@@ -10,12 +10,11 @@
 #include "base/table.h"
 #include "dem/instruction_set.h"
 #include "dem/laws/bond_law.h"
+#include "dem/packing/specimen.h"
 #include "dem/pair_blocks.h"
 #include "dem/particles.h"
 
 namespace platen::dem {
-
-struct Specimen;
 
 enum class RadiusRule { minimum, mean, harmonic, given };
 
@@ -125,7 +124,9 @@ struct Bonds {
 
   // Bonds all pairs within the layout's reach; pairs are sorted by (first, second). Throws
   // std::invalid_argument if spheres share a centre, or if the law needs rotation and there is none.
-  Bonds(const Particles &particles, const BondLayout &layout, const BondParameters &parameters);
+  // None is made across the notch.
+  Bonds(const Particles &particles, const BondLayout &layout, const BondParameters &parameters,
+        const Notch &notch = {});
 
   // Adds dashpots of the fraction alpha of critical to every bond: F = 2 alpha sqrt(K m*) v in parallel with
   // each spring of stiffness K, with the reduced mass m* (inertia for moments). Bonds must be intact.

@@ -52,6 +52,7 @@ GROUPS = [
     ("Tension, bending, Brazilian", [
         Scene("concrete_tension", COMPRESS, "damage"),
         Scene("bending_concrete", COMPRESS, "damage"),
+        Scene("notched_beam", COMPRESS, "damage"),
         Scene("brazilian_concrete", BRAZILIAN, "crack_times"),
     ]),
     ("Cement, concrete and shale of Oñate et al. 2015", [

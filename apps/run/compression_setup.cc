@@ -74,6 +74,14 @@ dem::Specimen resumed(const Scene &scene, const OutputPaths &paths) {
   return specimen;
 }
 
+// The packing is kept whole; the specimen.csv of a resumed run lacks the spheres already.
+dem::Specimen notched(const Scene &scene, const dem::Specimen &whole) {
+  const dem::Notch &notch = scene.specimen.notch;
+  if (notch.is_there() && whole.shape.kind != dem::ShapeKind::box)
+    refuse(scene, "Specimen/Notch depth", "is of bars that are bent in three points. Allowed: 0.");
+  return dem::notched(whole, notch);
+}
+
 } // namespace
 
 CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, Pressed pressed)
@@ -90,7 +98,9 @@ CompressionRun::CompressionRun(const CommandLine &command, const Scene &scene, P
   const auto keep = [&] {
     return keep_packing(command, scene, !command.dry_run && !this_rank().is_silent(), log_);
   };
-  const dem::Specimen specimen = resumes_ ? resumed(scene, paths_) : placed(scene, pressed, keep());
+  const dem::Specimen whole = resumes_ ? resumed(scene, paths_) : placed(scene, pressed, keep());
+  const bool bends = pressed == Pressed::along_axis; // a disc has no notch, whatever its scene says
+  const dem::Specimen specimen = bends ? notched(scene, whole) : whole;
   require_spheres(scene, specimen);
   if (!packs) require_memory(specimen.shape);
   if (counted_.empty()) set_up(specimen, marks);

@@ -47,6 +47,9 @@ enum Need : unsigned {
   bottom_cone = 1u << 16,   // on the bottom
   of_machine = 1u << 17,    // costs: Expect does not name them
   of_every_test = 1u << 18, // also reported, or null, by programs that test without platens
+  whole_bar = 1u << 19,     // a bar without a notch
+  ligament = 1u << 20,      // a bar with one
+  broken_through = 1u << 21 // a load that has fallen to next to nothing, of the platens alone
 };
 constexpr unsigned read_off = history | peak | modulus | damage | consolidation;
 constexpr unsigned youngs = modulus | elastic | bare | stiffness | section | of_every_test,
@@ -267,6 +270,28 @@ void list_sides(List &list) {
   list.where(everywhere);
 }
 
+// Of a notched bar that is broken through: RILEM 50-FMC (1985), EN 14651.
+template <class List>
+void list_notch(List &list) {
+  constexpr unsigned fracture = peak | ligament | broken_through;
+  list.where([](auto &t) { return t.problem.bent(); });
+  list.add("net_strength_pa", "Pa", peak | ligament,
+           {"flexural strength of the ligament", "{:.2f} MPa", 1e-6}, [](auto &t) {
+             const auto bar = t.problem.three_points();
+             return t.results.strength() * bar.nominal_area() / bar.net_area();
+           });
+  list.add("cmod_at_peak_m", "m", peak | ligament, {"mouth opening at peak", "{:.4g} um", 1e6}, "cmod_m",
+           [](auto &t) { return t.results.at_peak(&Sample::mouth_opening); });
+  list.add("load_at_end_over_peak", "1", peak | ligament, {"load at the end over the peak", "{:.3f}"},
+           [](auto &t) { return t.load_at_end_over_peak(); });
+  list.add("work_of_fracture_j", "J", fracture, [](auto &t) { return t.work_of_fracture(); });
+  list.add("fracture_energy_j_m2", "J/m2", fracture, {"fracture energy", "{:.4g} J/m2"},
+           [](auto &t) { return t.work_of_fracture() / t.problem.three_points().ligament_area(); });
+  list.add("bond_fracture_energy_j_m2", "J/m2", fracture, {"of it lost in bonds", "{:.4g} J/m2"},
+           [](auto &t) { return t.results.lost_in_bonds() / t.problem.three_points().ligament_area(); });
+  list.where(everywhere);
+}
+
 // Of a disc and of a bent bar, whose stresses are 2 P / (pi D t) and 3 P L / (2 b d^2).
 template <class List>
 void list_disc_and_bar(List &list) {
@@ -285,9 +310,10 @@ void list_disc_and_bar(List &list) {
   list.where([](auto &t) { return t.problem.bent(); });
   list.add("deflection_at_peak_m", "m", peak, {"deflection at peak", "{:.4g} um", 1e6}, "deflection_m",
            [](auto &t) { return t.results.at_peak(&Sample::deflection); });
-  list.add("flexural_modulus_pa", "Pa", modulus | elastic | section, {"flexural modulus", "{:.2f} GPa", 1e-9},
-           "deflection_m", [](auto &t) { return t.flexural_modulus(); });
-  list.add("shear_over_bending_deflection", "1",
+  list.add("flexural_modulus_pa", "Pa", modulus | elastic | section | whole_bar,
+           {"flexural modulus", "{:.2f} GPa", 1e-9}, "deflection_m",
+           [](auto &t) { return t.flexural_modulus(); });
+  list.add("shear_over_bending_deflection", "1", whole_bar,
            [](auto &t) { return t.problem.three_points().shear_share(t.assumed_poisson_ratio); });
   list.add("moment_over_nominal", "1", peak | section, {"moment at mid-span over PL/4", "{:.3f}"},
            "midspan_moment_n_m", [](auto &t) { return t.moment_over_nominal(); });
@@ -456,6 +482,7 @@ void list_figures(List &list) {
   list_cell(list);
   list_sides(list);
   list_disc_and_bar(list);
+  list_notch(list);
   list_whole_test(list);
   list_damage(list);
   for (const bool last : {false, true}) {

@@ -58,6 +58,9 @@ bool of_disc(const PlatenTest &p) {
 bool bent(const PlatenTest &p) {
   return p.bent();
 }
+bool notched(const PlatenTest &p) {
+  return p.notched();
+}
 
 bool on_spring(const PlatenTest &p) {
   return p.machine() != nullptr;
@@ -92,8 +95,9 @@ bool staged(const PlatenTest &p) {
 // A stage is led or ended by how the specimen widens.
 bool widens(const PlatenTest &p) {
   const auto &stages = p.settings().loading.stages;
-  return std::any_of(stages.begin(), stages.end(),
-                     [](const auto &stage) { return coupling::needs_circumferential_strain(stage); });
+  return std::any_of(stages.begin(), stages.end(), [](const auto &stage) {
+    return coupling::needs(stage, coupling::Widening::circumference);
+  });
 }
 
 } // namespace
@@ -171,6 +175,8 @@ const std::vector<HistoryColumn> &history_columns() {
       {"deflection_m", "m", &S::deflection, [](const Seen &s) { return s.deflection(); }, number, bent},
       {"midspan_moment_n_m", "N m", &S::midspan_moment,
        [](const Seen &s) { return s.problem.midspan_moment(); }, number, bent},
+      {"cmod_m", "m", &S::mouth_opening, [](const Seen &s) { return s.problem.mouth_opening(); }, number,
+       notched},
       {"stress_left_pa", "Pa", &S::stress_left, stress_on<Side::left>, number, presses<Side::left>},
       {"stress_right_pa", "Pa", &S::stress_right, stress_on<Side::right>, number, presses<Side::right>},
       {"stress_front_pa", "Pa", &S::stress_front, stress_on<Side::front>, number, presses<Side::front>},

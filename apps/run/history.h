@@ -42,6 +42,7 @@ struct Sample {
   double opening = 0;        // m, of a disc across its loaded diameter
   double deflection = 0;     // m, of a bent bar
   double midspan_moment = 0; // N m, of a bent bar
+  double mouth_opening = 0;  // m, of its notch
   double stress_left = 0, stress_right = 0, stress_front = 0, stress_back = 0; // Pa, of side platens
   double strain_x = 0, strain_y = 0; // of the platens there, as strain_platen is along z
   double machine_energy = 0;         // J, part of `body`: of the machine's spring and the mass on it

@@ -299,6 +299,22 @@ double Results::largest_over_work(double Sample::*value) const {
   return largest.value() / samples_[peak_ > 0 ? peak_row_ : samples_.size() - 1].boundary;
 }
 
+double Results::work_over_strain() const {
+  const auto strain = platen_strain(axis_);
+  double work = samples_.empty() ? not_measured : 0;
+  for (std::size_t k = 1; k < samples_.size(); ++k) {
+    const Sample &before = samples_[k - 1], &now = samples_[k];
+    work += 0.5 * (stress(before) + stress(now)) * sign_ * (now.*strain - before.*strain);
+  }
+  return work;
+}
+
+double Results::lost_in_bonds() const {
+  if (samples_.empty()) return not_measured;
+  const Sample &first = samples_.front(), &last = samples_.back();
+  return last.fracture + last.plastic - first.fracture - first.plastic;
+}
+
 std::vector<Sample> Results::rise() const {
   const Crossing c = ascending(whole_share);
   if (!c.found) return {};

@@ -137,6 +137,11 @@ public:
   // work on platens without inertia that is not in them, 0 where there are none.
   double energy_residual_relative() const { return largest_over_work(&Sample::residual); }
   double platen_unbalanced_work_relative() const { return largest_over_work(&Sample::unbalanced_work); }
+  // Pa, J for each m^3 of area and length: integral of the stress over the strain of the platens, over all
+  // samples by the trapezoidal rule; where the strain goes back, work is given back.
+  double work_over_strain() const;
+  // J, lost in bonds since the start: by damage and yield, and when they break.
+  double lost_in_bonds() const;
   // Samples from a tenth of the peak stress to the peak; none where there is no peak.
   std::vector<Sample> rise() const;
 

@@ -100,6 +100,10 @@ double TestRecord::oscillations_to_peak() const {
   return problem.bending_period() > 0 ? results.time_at_peak() / problem.bending_period() : not_measured;
 }
 
+double TestRecord::work_of_fracture() const {
+  return results.work_over_strain() * problem.nominal_area() * problem.shape().height;
+}
+
 double TestRecord::cracks_near_midspan() const {
   return dem::broken_near_midspan(model.particles, *model.bonds, problem.shape().height);
 }

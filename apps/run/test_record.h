@@ -77,6 +77,10 @@ struct TestRecord {
   double moment_over_nominal() const;  // moment at mid-span over P L / 4
   double oscillations_to_peak() const; // how often it could have swung until the peak
   double cracks_near_midspan() const;
+  // Of a notched one: work of the platens on their way, without that of its weight; load at the end over that
+  // at the peak.
+  double work_of_fracture() const; // J
+  double load_at_end_over_peak() const { return results.stress_at_end() / results.strength(); }
 
   // Of the state at 0.8 of the peak, or of the last one.
   const dem::FailureMeasures &failure(bool last) const;

@@ -25,6 +25,9 @@ constexpr std::size_t fewest_to_modulus = 3, fewest_to_peak = 8;
 constexpr double most_over_affine = 1.2;
 // Without a peak only an elastic specimen has a modulus. Of the energy in the bonds:
 constexpr double most_plastic = 0.01;
+// A tail that falls as the square of the way has P w left at its end (Elices, Guinea and Planas 1992): at
+// five times the way to the peak this share of the load is an eighth of the work.
+constexpr double most_load_at_end = 0.05; // of the peak
 // Twelve numbers are fitted to the motion of the gauge's spheres, three of each.
 constexpr std::size_t fewest_in_gauge = 12;
 
@@ -163,6 +166,17 @@ Words against_cone(Test t, dem::End end) {
   return when(measures_pattern(t.scene, t.problem) && has_fallen(t) && !zone.is_cone(), cone_words(zone));
 }
 
+Words against_break_through(Test t) {
+  Words words = when(t.scene.effects.gravity,
+                     "gravity bends the bar too, and its work is not counted: Effects/Gravity");
+  if (t.load_at_end_over_peak() > most_load_at_end)
+    words.push_back(
+        fmt::format("the bar bears {:.2g} of its largest load at the end, {:g} at most: the work to break it "
+                    "through is not known. A lower Loading/Stop at residual, or a later end",
+                    t.load_at_end_over_peak(), most_load_at_end));
+  return words;
+}
+
 // What speaks against all figures that need one of these.
 struct Reason {
   unsigned needs; // of Need
@@ -203,6 +217,14 @@ const std::vector<Reason> reasons{
     {consolidation, [](Test t) { return against_controls(t, t.results.consolidation_end()); }},
     {peak, against_path},
     {gauge, against_gauge},
+    {whole_bar,
+     [](Test t) { return when(t.problem.notched(), "the bar has a notch: beam theory knows of none"); }},
+    {ligament,
+     [](Test t) {
+       return when(!t.problem.notched(),
+                   "the bar has no notch, above which a ligament breaks: Specimen/Notch depth");
+     }},
+    {broken_through, [](Test t) { return t.problem.notched() ? against_break_through(t) : Words{}; }},
     {compressed,
      [](Test t) {
        return when(!measures_pattern(t.scene, t.problem),

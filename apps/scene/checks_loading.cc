@@ -34,7 +34,8 @@ void SceneCheck::test() const {
   const SpecimenSection &specimen = scene_.specimen;
   const bool lies = scene_.loading.bending() && specimen.shape == SpecimenShape::bar && !specimen.round(),
              known = specimen.packing != PackingKind::file && program_.presses != Presses::discs && !lies;
-  const dem::Shape shape = specimen_shape(scene_);
+  dem::Shape shape = specimen_shape(scene_);
+  if (program_.presses_specimens()) shape.notch = specimen.notch;
   for (const coupling::Fault &fault :
        coupling::faults(settings_without_files(scene_), known ? &shape : nullptr)) {
     const std::string entry = blamed(parameters_, parameters_.entry_of(fault.member)),

@@ -52,6 +52,8 @@ void SceneCheck::specimen() const {
   if (specimen.seat && !scene_.model.rotation)
     refuse("Specimen/Seat", "needs Effects/Rotation = on: a seat resists rocking.");
   if (!program_.packs) return;
+  if (program_.presses_specimens() && specimen.notch.is_there() && scene_.phases.by == PhasesBy::file)
+    refuse("Phases/By", "numbers spheres of which a notch takes some away. Allowed: none, radius.");
   cross_section();
   if (specimen.packing == PackingKind::file) {
     readable("Specimen/File", specimen.file, "Packing = file takes the spheres from it.");

@@ -35,6 +35,7 @@ struct SpecimenSection {
   double end_layer = 1; // mean sphere radii
   bool seat = false;
   bool net_section = false;
+  dem::Notch notch;              // of a bar that is bent
   std::string cache = "default"; // folder of packings that are kept; default: that of the user; none: none
 
   bool round() const {

@@ -17,19 +17,31 @@ using Ask = SideAsk::Ask;
 using Reached = coupling::Until::Reached;
 
 const std::vector<std::pair<std::string, Ask>> &words_of_asks() {
-  static const std::vector<std::pair<std::string, Ask>> words{
-      {"rate", Ask::rate},         {"unload", Ask::rate},
-      {"stress", Ask::stress},     {"share of", Ask::share},
-      {"pressure", Ask::pressure}, {"hold", Ask::hold},
-      {"free", Ask::free},         {"circumferential rate", Ask::circumferential}};
+  static const std::vector<std::pair<std::string, Ask>> words{{"rate", Ask::rate},
+                                                              {"unload", Ask::rate},
+                                                              {"stress", Ask::stress},
+                                                              {"share of", Ask::share},
+                                                              {"pressure", Ask::pressure},
+                                                              {"hold", Ask::hold},
+                                                              {"free", Ask::free},
+                                                              {"circumferential rate", Ask::circumferential},
+                                                              {"cmod rate", Ask::mouth_opening}};
   return words;
 }
 
 // "strain change" before "strain".
-constexpr std::array all_ends{Reached::strain_change,  Reached::strain,
-                              Reached::stress,         Reached::share_of_peak,
-                              Reached::share_of_start, Reached::circumferential_strain,
-                              Reached::time,           Reached::settled};
+constexpr std::array all_ends{
+    Reached::strain_change, Reached::strain,         Reached::stress,
+    Reached::share_of_peak, Reached::share_of_start, Reached::circumferential_strain,
+    Reached::mouth_opening, Reached::time,           Reached::settled};
+
+// Of the value of an end.
+const char *unit_of(Reached what) {
+  return what == Reached::stress          ? "Pa"
+         : what == Reached::time          ? "s"
+         : what == Reached::mouth_opening ? "m"
+                                          : "1";
+}
 
 // Takes a word and the blank after it from the front of a text.
 bool take(std::string &text, const std::string &word) {
@@ -116,6 +128,9 @@ std::optional<SideAsk> read_ask(const std::string &text) {
       case Ask::circumferential:
         ask.value = strain_rate_of(rest);
         return ask;
+      case Ask::mouth_opening:
+        ask.value = value_of(rest, "m/s");
+        return ask;
       case Ask::share: {
         const std::optional<SideGroup> of = take_side(rest);
         if (!of) fail_side(rest);
@@ -152,8 +167,7 @@ std::vector<StageUntil> read_until(const std::string &text) {
     if (end.what == Reached::settled) {
       if (!item.empty()) throw ValueError("has \"" + item + "\" after settled");
     } else {
-      const char *unit = end.what == Reached::stress ? "Pa" : end.what == Reached::time ? "s" : "1";
-      end.value = value_of(item, unit);
+      end.value = value_of(item, unit_of(end.what));
     }
     ends.push_back(end);
   }

@@ -69,6 +69,17 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
                    "spheres fill with their pores, where that is the same at all heights; the nominal one "
                    "where they fill it.")
       .member("net_section");
+  section
+      .entry(
+          "Notch depth", specimen.notch.depth, "m", at_least(0),
+          "Of a notch that is cut into a bar before it is bent, from its lower face at mid-span, through its "
+          "whole breadth: spheres with centres in it are taken away, no bond crosses it; 0: none.")
+      .member("specimen.notch_depth");
+  section
+      .entry("Notch width", specimen.notch.width, "m", at_least(0),
+             "Of that notch along the bar; 0: bonds are cut alone.")
+      .only_if([](const Scene &s) { return s.specimen.notch.is_there(); }, "Specimen/Notch depth is 0")
+      .member("specimen.notch_width");
 }
 
 void declare_material(Parameters &parameters, dem::ModelSettings &model, dem::ContactSettings &contact) {

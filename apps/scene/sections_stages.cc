@@ -6,10 +6,10 @@ namespace {
 
 const char *asked_words =
     "rate [SPEED], unload [SPEED], stress VALUE, share of SIDE VALUE, pressure VALUE, hold, "
-    "free, circumferential rate VALUE";
+    "free, circumferential rate VALUE, cmod rate VALUE";
 const char *end_words =
     "[SIDE] strain, [SIDE] strain change, [SIDE] stress, [SIDE] share of peak, [SIDE] share of "
-    "start, circumferential strain, time, each with its value; settled";
+    "start, circumferential strain, cmod, time, each with its value; settled";
 
 std::string about(coupling::SideGroup group) {
   using G = coupling::SideGroup;

@@ -13,6 +13,9 @@
 
 namespace platen::coupling {
 
+// How a specimen widens: the strain of its circumference (1), or the opening of the mouth of its notch (m).
+enum class Widening { circumference, mouth };
+
 // The measures of a test that a program reads.
 class Measures {
 public:
@@ -21,7 +24,7 @@ public:
   virtual double time_step() const = 0;              // s
   virtual double closure_strain() const = 0;         // of the platens, over the height
   virtual double closure_strain(int axis) const = 0; // 0 x, 1 y, 2 z, over the length; NaN without platens
-  virtual double circumferential_strain() const = 0; // of the lateral surface, positive where it expands
+  virtual double widening(Widening of) const = 0;    // positive where it widens
   virtual double axial_stress() const = 0;           // Pa, mean of both platens, compression positive
   virtual double lateral_pressure() const = 0;       // Pa
   virtual double broken_bonds() const = 0;           // since the start

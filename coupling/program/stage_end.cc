@@ -20,10 +20,16 @@ bool is_share(const Until &until) {
 } // namespace
 
 const char *name_of(Reached what) {
-  static constexpr std::array<const char *, 8> names{
-      "strain",         "strain change",          "stress", "share of peak",
-      "share of start", "circumferential strain", "time",   "settled"};
+  static constexpr std::array<const char *, 9> names{
+      "strain", "strain change", "stress", "share of peak", "share of start", "circumferential strain",
+      "cmod",   "time",          "settled"};
   return names.at(static_cast<std::size_t>(what));
+}
+
+std::optional<Widening> widening_of(Reached what) {
+  if (what == Reached::circumferential_strain) return Widening::circumference;
+  if (what == Reached::mouth_opening) return Widening::mouth;
+  return std::nullopt;
 }
 
 StageEnd::StageEnd(Parameters parameters)
@@ -38,7 +44,8 @@ double StageEnd::now(const Measures &m, const Until &until) const {
     case Reached::strain_change:
       return m.closure_strain(until.of.axis);
     case Reached::circumferential_strain:
-      return m.circumferential_strain();
+    case Reached::mouth_opening:
+      return m.widening(*widening_of(until.what));
     case Reached::stress:
     case Reached::share_of_peak:
     case Reached::share_of_start:
@@ -105,7 +112,7 @@ double StageEnd::progress(const Measures &m, double passed) const {
     const double from = until.what == Reached::strain ? seen_[k].zero : seen_[k].found;
     const bool falls = until.what == Reached::strain && until.direction < 0;
     if (until.what == Reached::time && until.value > 0) most = std::max(most, passed / until.value);
-    if (until.what == Reached::circumferential_strain || (until.what == Reached::strain && !falls) ||
+    if (widening_of(until.what) || (until.what == Reached::strain && !falls) ||
         until.what == Reached::strain_change)
       if (until.value > 0) most = std::max(most, std::abs(now(m, until) - from) / until.value);
   }

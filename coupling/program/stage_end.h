@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "coupling/program/task.h"
@@ -17,7 +18,8 @@ struct Until {
     share_of_peak,  // of the largest stress of this stage, after the ramp: the stress has fallen to it
     share_of_start, // of the stress at the start of the stage: it has fallen to it
     circumferential_strain,
-    time, // s, since the stage began
+    mouth_opening, // m, of a notch
+    time,          // s, since the stage began
     settled
   };
   Reached what = Reached::settled;
@@ -30,6 +32,8 @@ struct Until {
 
 // "strain change", "share of peak"
 const char *name_of(Until::Reached what);
+// How the specimen has widened at that end; none where it looks at something else.
+std::optional<Widening> widening_of(Until::Reached what);
 
 class StageEnd {
 public:

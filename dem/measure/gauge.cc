@@ -155,4 +155,27 @@ double Deflection::operator()(const Particles &p) const {
   return 0.5 * (mean_motion(p, left_, 2) + mean_motion(p, right_, 2)) - mean_motion(p, middle_, 2);
 }
 
+MouthOpening::MouthOpening(const Particles &p, const Notch &notch, const Bonds *bonds) {
+  const std::vector<char> bonded = ever_bonded(p, bonds);
+  const double near = 2 * mean_radius(p);
+  if (notch.depth < near) throw std::invalid_argument("the notch is shallower than a sphere");
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vector3 &x = p.reference_position[i];
+    if (!bonded[i] || x.z > near || std::abs(x.x) > 0.5 * notch.width + near) continue;
+    (x.x < 0 ? left_ : right_).push_back(static_cast<int>(i));
+  }
+  if (left_.empty() || right_.empty())
+    throw std::invalid_argument("no sphere lies beside the mouth of the notch");
+}
+
+double MouthOpening::operator()(const Particles &p) const {
+  return mean_motion(p, right_, 0) - mean_motion(p, left_, 0);
+}
+
+std::vector<int> MouthOpening::rows() const {
+  std::vector<int> all(left_.size() + right_.size());
+  std::merge(left_.begin(), left_.end(), right_.begin(), right_.end(), all.begin());
+  return all;
+}
+
 } // namespace platen::dem

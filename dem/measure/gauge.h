@@ -1,4 +1,5 @@
-// Readings of instruments on a specimen: strain of its middle, opening of a disc, deflection of a bar.
+// Readings of instruments on a specimen: strain of its middle, opening of a disc, deflection of a bar,
+// opening of a notch.
 #pragma once
 
 #include <array>
@@ -72,9 +73,14 @@ struct ThreePoints {
   double span = 0;    // m, L
   double breadth = 0; // m, b, along y
   double depth = 0;   // m, d, along the load
+  double notch = 0;   // m, a_0, depth of a notch below the middle
 
   // m^2; the load divided by it is the flexural stress of a slender elastic beam, 3 P L / (2 b d^2).
   double nominal_area() const { return 2 * breadth * depth * depth / (3 * span); }
+  // The same of the ligament above the notch, of depth h = d - a_0: 3 P L / (2 b h^2) (EN 14651).
+  double net_area() const { return 2 * breadth * ligament() * ligament() / (3 * span); }
+  double ligament() const { return depth - notch; }             // m, h
+  double ligament_area() const { return breadth * ligament(); } // m^2
   // Deflection by shear over that by bending, Timoshenko's beam with the shear factor of Cowper (1966),
   // 10 (1 + nu) / (12 + 11 nu).
   double shear_share(double poisson_ratio) const {
@@ -99,6 +105,22 @@ public:
 
 private:
   std::vector<int> left_, middle_, right_;
+};
+
+// Crack mouth opening displacement (CMOD), as a clip gauge across the mouth of a notch measures it: mean
+// displacement along x of the spheres on its right minus that of those on its left, m, positive where it
+// opens. They lie within two mean radii of the wall of the notch and of the lower face (z = 0), thus
+// measure a little above the mouth, and had a bond.
+class MouthOpening {
+public:
+  // Gives the same object at any time of the run, as Gauge. `bonds` may be null. Throws std::invalid_argument
+  // if the notch is shallower than that, or if there is no such sphere on a side.
+  MouthOpening(const Particles &particles, const Notch &notch, const Bonds *bonds);
+  double operator()(const Particles &particles) const;
+  std::vector<int> rows() const; // ascending
+
+private:
+  std::vector<int> left_, right_;
 };
 
 } // namespace platen::dem

@@ -182,6 +182,7 @@ Specimen enveloped(const Specimen &whole, int axis) {
     for (const int k : {(axis + 1) % 3, (axis + 2) % 3})
       low[k] = std::max(low[k], spheres.low[k]), high[k] = std::min(high[k], spheres.high[k]);
     s.shape = box(high.x - low.x, high.y - low.y, high.z - low.z);
+    s.shape.notch = {std::max(0.0, whole.shape.notch.depth - low.z), whole.shape.notch.width};
     for (Vector3 &c : s.centre)
       c -= {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), low.z};
     return s;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -48,6 +49,14 @@ private:
   std::size_t most_, count_ = 0;
   std::vector<std::string> texts_;
 };
+
+// m, distance of a point from a notch, negative within it; infinite without one.
+double notch_clearance(const Notch &notch, const Vector3 &p) {
+  if (!notch.is_there()) return std::numeric_limits<double>::infinity();
+  const double beside = std::abs(p.x) - 0.5 * notch.width, above = p.z - notch.depth;
+  if (beside < 0 && above < 0) return std::max(beside, above);
+  return std::hypot(std::max(beside, 0.0), std::max(above, 0.0));
+}
 
 void check_numbers(const Specimen &s, ProblemList &problems) {
   for (std::size_t i = 0; i < s.size(); ++i) {
@@ -124,6 +133,23 @@ Specimen laid_along_x(const Specimen &standing) {
   return lying;
 }
 
+Specimen notched(const Specimen &whole, const Notch &notch) {
+  for (const double length : {notch.depth, notch.width})
+    if (!std::isfinite(length) || length < 0)
+      throw std::invalid_argument("depth and width of a notch must be finite and not negative");
+  if (!notch.is_there()) return whole;
+  if (whole.shape.kind != ShapeKind::box) throw std::invalid_argument("only a box can be notched");
+  Specimen cut;
+  cut.shape = whole.shape;
+  cut.shape.notch = notch;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    if (notch.holds(whole.centre[i])) continue;
+    cut.centre.push_back(whole.centre[i]);
+    cut.radius.push_back(whole.radius[i]);
+  }
+  return cut;
+}
+
 double lateral_perimeter(const Shape &shape) {
   return shape.kind == ShapeKind::cylinder ? 2 * pi * shape.radius : 2 * (shape.width_x + shape.width_y);
 }
@@ -145,11 +171,13 @@ double wall_clearance(const Shape &shape, const Vector3 &p) {
   const double ends = std::min(p.z, shape.height - p.z);
   if (shape.kind == ShapeKind::cylinder)
     return std::min(ends, shape.radius - std::sqrt(p.x * p.x + p.y * p.y));
-  return std::min(ends, std::min(0.5 * shape.width_x - std::abs(p.x), 0.5 * shape.width_y - std::abs(p.y)));
+  const double sides = std::min(0.5 * shape.width_x - std::abs(p.x), 0.5 * shape.width_y - std::abs(p.y));
+  return std::min({ends, sides, notch_clearance(shape.notch, p)});
 }
 
 Shape scaled(Shape shape, double s) {
   shape.radius *= s, shape.width_x *= s, shape.width_y *= s, shape.height *= s;
+  shape.notch.depth *= s, shape.notch.width *= s;
   return shape;
 }
 

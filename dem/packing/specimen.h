@@ -2,6 +2,7 @@
 // faces with flat platens. SI units, axis along z.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -13,6 +14,20 @@ namespace platen::dem {
 
 enum class ShapeKind { cylinder, box, disc };
 
+// A notch as a saw cuts it: from the lower face of a box at mid-length, through its whole breadth along y.
+struct Notch {
+  double depth = 0; // m, along z; 0: none
+  double width = 0; // m, along x; 0: a cut that takes nothing away
+
+  bool is_there() const { return depth > 0; }
+  bool holds(const Vector3 &x) const { return x.z < depth && std::abs(x.x) < 0.5 * width; }
+  // Whether the line from a to b passes the middle of the notch below its tip.
+  bool parts(const Vector3 &a, const Vector3 &b) const {
+    if ((a.x < 0) == (b.x < 0)) return false;
+    return a.z + a.x / (a.x - b.x) * (b.z - a.z) < depth;
+  }
+};
+
 // A cylinder of radius r and height h on 0 <= z <= h, axis x = y = 0; or a box [-lx/2, lx/2] x [-ly/2, ly/2]
 // x [0, h]. (A bar is a box or cylinder that is long along z.) Or a disc on its rim: a cylinder of radius r
 // along y, |y| <= w/2, on 0 <= z <= h = 2 r.
@@ -21,6 +36,7 @@ struct Shape {
   double radius = 0;               // m, cylinder, disc
   double width_x = 0, width_y = 0; // m, box; for a disc: 2 r and its thickness
   double height = 0;               // m
+  Notch notch;                     // only of a box
 
   // m^2, by which a load along z is divided; for a disc pi r w, which gives 2 P / (pi D w).
   double cross_section() const {
@@ -28,7 +44,8 @@ struct Shape {
     return kind == ShapeKind::cylinder ? pi * radius * radius : width_x * width_y;
   }
   double volume() const { // m^3
-    return kind == ShapeKind::disc ? cross_section() * radius : cross_section() * height;
+    if (kind == ShapeKind::disc) return cross_section() * radius;
+    return cross_section() * height - notch.depth * notch.width * width_y;
   }
 };
 
@@ -38,8 +55,8 @@ double surface_area(const Shape &shape);                  // m^2, ends included
 Shape disc(double radius, double thickness);              // m
 double lateral_perimeter(const Shape &shape);             // m, of the cross-section
 double smallest_width(const Shape &shape);                // m: diameter, an edge, or the height
-// Distance from a point to the nearest wall or end plane, m; negative outside (there, for a box, the largest
-// distance to a face plane).
+// Distance from a point to the nearest wall or end plane, or a notch, m; negative outside (there, for a box,
+// the largest distance to a face plane).
 double wall_clearance(const Shape &shape, const Vector3 &point);
 Shape scaled(Shape shape, double factor); // every length
 // For a box that is periodic along x, y and z: its edges (m), and the image in it of any point.
@@ -62,6 +79,11 @@ Specimen laid_down(const Specimen &specimen);
 // A bar that was packed along z, turned along x: the old x axis points up, y stays. Only boxes; others stay
 // as they are.
 Specimen laid_along_x(const Specimen &specimen);
+
+// A box without the spheres whose centres lie in the notch; its shape has the notch, across which no bond is
+// made then. Once more it takes nothing away. Throws std::invalid_argument for another shape, and unless
+// depth and width are finite and not negative.
+Specimen notched(const Specimen &specimen, const Notch &notch);
 
 inline double sphere_volume(double radius) { // m^3
   return 4.0 / 3.0 * pi * radius * radius * radius;

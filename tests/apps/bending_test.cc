@@ -86,6 +86,77 @@ TEST_F(Bending, elastic_strips_bend_as_rigid_ones) {
   }
 }
 
+// A third of its depth is cut away: less load, and all that is told of a ligament.
+TEST_F(Bending, a_notched_bar_breaks_above_its_notch) {
+  const std::vector<std::string> slow{"Loading/Axial rate = 0.02 m/s", "Loading/Stop at residual = 0.02"},
+      kept{"--quiet", "--packings", "kept"};
+  std::vector<std::string> cut = slow;
+  cut.insert(cut.end(), {"Specimen/Notch depth = 4 mm", "Specimen/Notch width = 2 mm"});
+  const nlohmann::json whole = bend("whole", slow, kept), s = bend("notched", cut, kept);
+  // One packing, which is kept whole.
+  long packings = 0;
+  for (const auto &file : fs::directory_iterator(folder_ / "kept"))
+    packings += file.path().extension() == ".csv";
+  EXPECT_EQ(packings, 1);
+  EXPECT_LT(s["particles"], whole["particles"]);
+  EXPECT_LT(s["bonds"], whole["bonds"]);
+
+  const double load = s["failure_load_n"], net = s["net_strength_pa"];
+  EXPECT_LT(load, 0.7 * whole["failure_load_n"].get<double>()); // (8 / 12)^2 is 0.44
+  EXPECT_NEAR(net / (1.5 * load * 36e-3 / (12e-3 * 64e-6)), 1, 1e-6);
+  EXPECT_NEAR(net / s["strength_pa"].get<double>(), 144. / 64, 1e-9);
+  EXPECT_GT(s["cmod_at_peak_m"], 0);
+  EXPECT_LT(s["load_at_end_over_peak"], 0.02);
+  const auto top = column("notched", "axial_stress_top_pa"),
+             bottom = column("notched", "axial_stress_bottom_pa"),
+             strain = column("notched", "axial_strain_platen"), mouth = column("notched", "cmod_m");
+  double work = 0; // N m
+  for (std::size_t k = 1; k < top.size(); ++k)
+    work += 0.25 * (top[k - 1] + bottom[k - 1] + top[k] + bottom[k]) * (strain[k] - strain[k - 1]) * 12e-3 *
+            load / s["strength_pa"].get<double>();
+  EXPECT_NEAR(s["work_of_fracture_j"].get<double>() / work, 1, 1e-6);
+  EXPECT_NEAR(s["fracture_energy_j_m2"].get<double>() / (work / (12e-3 * 8e-3)), 1, 1e-6);
+  EXPECT_GT(s["bond_fracture_energy_j_m2"], 0);
+  EXPECT_GT(mouth.back(), 2 * s["cmod_at_peak_m"].get<double>());
+  EXPECT_GT(s["cracks_near_midspan"], 0.8);
+
+  EXPECT_TRUE(s["flexural_modulus_pa"].is_null());
+  EXPECT_EQ(s["validity"]["flexural_modulus_pa"][0], "the bar has a notch: beam theory knows of none");
+  for (const char *of_notch : {"net_strength_pa", "cmod_at_peak_m", "fracture_energy_j_m2"}) {
+    EXPECT_TRUE(whole[of_notch].is_null());
+    EXPECT_EQ(whole["validity"][of_notch][0],
+              "the bar has no notch, above which a ligament breaks: Specimen/Notch depth");
+  }
+}
+
+// The mouth opens as it is asked, through the fall too, on any number of threads and after a stop.
+TEST_F(Bending, a_stage_leads_a_bar_by_its_mouth) {
+  const std::vector<std::string> led{"Specimen/Notch depth = 4 mm",
+                                     "Loading/Stage 1/Axial = cmod rate 20 mm/s",
+                                     "Loading/Stage 1/Until = cmod 40 um", "Loading/Stop at residual = 0"};
+  const nlohmann::json s = bend("whole", led, {"--quiet", "-t", "1"});
+  const nlohmann::json stage = s["stages"][0], control = stage["controls"][0];
+  EXPECT_EQ(stage["ended_by"], "cmod");
+  EXPECT_EQ(control["quantity"], "cmod rate");
+  EXPECT_EQ(control["unit"], "m/s");
+  EXPECT_NEAR(control["reached"].get<double>() / control["asked"].get<double>(), 1, 0.3);
+  EXPECT_EQ(s["peak_reached"], true);
+  const auto mouth = column("whole", "cmod_m");
+  EXPECT_NEAR(mouth.back(), 40e-6, 2e-6);
+  const auto whole = results_in(folder_ / "whole");
+  bend("two", led, {"--quiet", "-t", "2"});
+  EXPECT_EQ(difference(whole, results_in(folder_ / "two")), "");
+  const long rows = lines_in(folder_ / "whole/history.csv");
+  {
+    Program program(compress_command(arguments("stopped", led, {"--quiet", "-t", "2"})), folder_);
+    EXPECT_TRUE(program.wait_until([&] { return lines_in(folder_ / "stopped/history.csv") >= rows / 2; }));
+    program.send(SIGTERM);
+    EXPECT_EQ(program.wait(), 143);
+  }
+  bend("stopped", led, {"--quiet", "-t", "1", "--resume"});
+  EXPECT_EQ(difference(whole, results_in(folder_ / "stopped")), "");
+}
+
 TEST_F(Bending, a_bar_packed_upright_is_laid_down) {
   const nlohmann::json s = bend("laid", {"Specimen/Shape = bar", "Specimen/Width x = 12 mm",
                                          "Specimen/Height = 48 mm", "Loading/Target strain = 0.0002"});
@@ -135,6 +206,13 @@ TEST_F(Bending, what_cannot_be_bent_is_refused) {
   refuse({"Platens/Attachment = glued"}, "Platens/Attachment = glued does not go with");
   refuse({"Specimen/Ends = as packed"}, "Specimen/Ends = as packed would let a bar rock");
   refuse({"Platens/Strip width = 0.01 mm"}, "without a sphere");
+  refuse({"Specimen/Notch depth = 11 mm"},
+         "Specimen/Notch depth = 11 mm leaves less than a tenth of the depth, 0.012 m. Allowed: up to 0.0108 "
+         "m.");
+  refuse({"Specimen/Notch depth = 1 mm"}, "Specimen/Notch depth = 1 mm has no mouth to measure");
+  refuse({"Specimen/Notch depth = 4 mm", "Specimen/Notch width = 40 mm"}, "reaches over the lower strips");
+  refuse({"Loading/Stage 1/Axial = cmod rate 20 mm/s", "Loading/Stage 1/Until = time 1 ms"},
+         "looks at the mouth of a notch, and there is none");
 }
 
 // The same bar stood on end and pressed gives its modulus; then it is bent on two spans.

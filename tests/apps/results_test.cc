@@ -153,6 +153,31 @@ TEST_F(Asked, without_a_peak_the_pressure_is_that_at_the_end_and_a_hold_is_no_lo
   EXPECT_NEAR(results_.confining_pressure(), 5e6, 1);
 }
 
+// The work of a triangle; what goes back on the way gives back what it took.
+TEST_F(Asked, work_is_the_area_under_the_curve) {
+  EXPECT_TRUE(std::isnan(results_.work_over_strain()));
+  for (const auto &[stress, strain] : {std::pair{0.0, 0.0},
+                                       {10.0, 0.5},
+                                       {20.0, 1.0},
+                                       {30.0, 1.5},
+                                       {20.0, 1.0},
+                                       {30.0, 1.5},
+                                       {15.0, 3.0},
+                                       {0.0, 4.5}})
+    at(stress, strain, widening, 0);
+  EXPECT_NEAR(results_.work_over_strain(), 0.5 * 30e6 * 4.5e-3, 1e-6);
+}
+
+// What bonds lose passes from damage and yield to fracture as they fail.
+TEST_F(Asked, losses_of_bonds_count_from_the_start) {
+  for (const auto &[plastic, fracture] : {std::pair{1.0, 2.0}, {4.0, 2.0}, {2.5, 7.0}}) {
+    Sample s;
+    s.plastic = plastic, s.fracture = fracture;
+    results_.add(s, problem_);
+  }
+  EXPECT_DOUBLE_EQ(results_.lost_in_bonds(), 6.5);
+}
+
 // Between a pressure that rises and another one a ratio of stress and strain is no modulus.
 TEST_F(Asked, moduli_are_of_a_specimen_that_is_loaded_on_with_the_same_sides) {
   const auto loaded_on = [&](coupling::Loads loads, double setting) {

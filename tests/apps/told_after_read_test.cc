@@ -70,6 +70,11 @@ const std::vector<Case> cases{
      {"stress_left_pa", "friction_work_left_j"}},
     {"disc", "split.prm", {}, {"opening_m"}},
     {"bar", "bent.prm", {}, {"deflection_m", "midspan_moment_n_m"}},
+    {"notched bar",
+     "bent.prm",
+     {"Specimen/Notch depth = 4 mm", "Specimen/Notch width = 1 mm",
+      "Loading/Stage 1/Axial = cmod rate 20 mm/s", "Loading/Stage 1/Until = cmod 30 um"},
+     {"cmod_m", "deflection_m"}},
     {"bonds that soften",
      "crushed.prm",
      {"Effects/Bond = elasto damage plastic", "Bond/Poisson ratio = 0.2", "Bond/Friction static = 0.9",
@@ -100,6 +105,7 @@ TEST_P(ToldAfterRead, is_what_was_told_before) {
       read_scene(file.string(), overrides, of.name == "disc" ? program("brazilian") : program("compress"));
   dem::Specimen specimen = make_bonded_specimen(scene);
   if (of.name == "disc") specimen = dem::laid_down(specimen);
+  specimen = dem::notched(specimen, scene.specimen.notch);
   const coupling::PlatenTestSettings settings = problem_settings(scene);
   coupling::PlatenTest run(specimen, settings);
   const Sampler sampler(run);

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "coupling/program/circumferential_task.h"
+#include "coupling/program/widening_task.h"
 
 namespace platen::coupling {
 namespace {
@@ -118,7 +118,7 @@ TEST(controlled, a_rate_is_that_of_the_faces) {
 }
 
 TEST(controlled, a_circumferential_rate_is_the_mean_of_the_stage) {
-  CircumferentialTask task({axial, 2, 1e-3, 1e-5, 5});
+  WideningTask task({axial, 2, 1e-3, 1e-5, 5});
   Seen seen;
   seen.wider = 3e-4;
   task.begin(seen, 0, {});

@@ -223,6 +223,60 @@ TEST(Faults, a_bar_is_bent_by_three_strips) {
   EXPECT_TRUE(faults(bar(), nullptr).empty()) << "a shape that is not known is not judged";
 }
 
+TEST(Faults, a_notch_is_of_a_bar_that_is_bent) {
+  const auto of = [](const Settings &settings, double depth, double width) {
+    dem::Shape shape = dem::box(0.08, 0.02, 0.02);
+    shape.notch = {depth, width};
+    const std::vector<Fault> found = faults(settings, &shape);
+    EXPECT_LE(found.size(), 1u);
+    return found.empty() ? std::string() : found[0].member + " " + found[0].reason;
+  };
+  EXPECT_EQ(of(bar(), 0.0179, 0.054), "");
+  EXPECT_EQ(of(bar(), 0.0181, 0.001),
+            "specimen.notch_depth leaves less than a tenth of the depth, 0.02 m. Allowed: up to 0.018 m.");
+  EXPECT_EQ(of(bar(), 0.005, 0.056),
+            "specimen.notch_width reaches over the lower strips. Allowed: below 0.055 m.");
+  EXPECT_EQ(of(cylinder(), 0.005, 0),
+            "specimen.notch_depth is of bars that are bent in three points. Allowed: 0.");
+  EXPECT_EQ(of(cylinder(), 0, 0.001), "");
+}
+
+// A bar that is bent has stages without servos, and with the mouth of a notch where it has one.
+TEST(Faults, stages_of_a_bar_move_its_strips) {
+  const auto of = [](double depth, SideGroup side, SideAsk::Ask ask, Until::Reached end) {
+    Settings s = bar();
+    StageSettings &stage = s.loading.stages.emplace_back();
+    SideAsk one;
+    one.side = side, one.ask = ask, one.value = 0.01;
+    stage.asks = {one};
+    stage.until = {{end, 0.001, SideGroup::axial}};
+    dem::Shape shape = dem::box(0.08, 0.02, 0.02);
+    shape.notch.depth = depth;
+    const std::vector<Fault> found = faults(s, &shape);
+    EXPECT_LE(found.size(), 1u);
+    return found.empty() ? std::string() : found[0].member + " " + found[0].reason;
+  };
+  using Ask = SideAsk::Ask;
+  using Reached = Until::Reached;
+  const SideGroup axial = SideGroup::axial;
+  EXPECT_EQ(of(0, axial, Ask::rate, Reached::strain), "");
+  EXPECT_EQ(of(0, axial, Ask::hold, Reached::time), "");
+  EXPECT_EQ(of(0.005, axial, Ask::mouth_opening, Reached::mouth_opening), "");
+  for (const Ask ask : {Ask::stress, Ask::free, Ask::circumferential})
+    EXPECT_NE(
+        of(0.005, axial, ask, Reached::time).find("does not go with three point bending. Allowed: rate"),
+        std::string::npos);
+  EXPECT_NE(of(0.005, axial, Ask::rate, Reached::circumferential_strain).find("looks at a circumference"),
+            std::string::npos);
+  EXPECT_NE(of(0, axial, Ask::mouth_opening, Reached::time).find("stage_1.axial looks at the mouth"),
+            std::string::npos);
+  EXPECT_NE(of(0, axial, Ask::rate, Reached::mouth_opening).find("stage_1.until looks at the mouth"),
+            std::string::npos);
+  EXPECT_NE(
+      of(0.005, SideGroup::top, Ask::mouth_opening, Reached::time).find("led by the opening of a notch"),
+      std::string::npos);
+}
+
 TEST(Faults, one_thing_presses_a_side) {
   Settings pressed = cylinder();
   press(pressed);

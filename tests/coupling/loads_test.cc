@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "coupling/platen_test.h"
-#include "coupling/program/circumferential_task.h"
+#include "coupling/program/widening_task.h"
 #include "tests/coupling/set_ups.h"
 
 namespace platen::coupling {
@@ -23,7 +23,7 @@ TEST(loads, a_rate_loads_on_in_the_sense_of_the_test) {
   EXPECT_EQ(closes.loads(tension), Loads::none);
   EXPECT_EQ(parts.loads(tension), Loads::by_closure);
   EXPECT_EQ(HoldTask(axial, 0).loads(compression), Loads::none);
-  EXPECT_EQ(CircumferentialTask({axial, 0.1, 0, 1e-5, 0.1}).loads(compression), Loads::by_widening);
+  EXPECT_EQ(WideningTask({axial, 0.1, 0, 1e-5, 0.1}).loads(compression), Loads::by_widening);
 }
 
 // What is asked again within the 1 % that counts as reached is no lower stress.

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "coupling/program/circumferential_task.h"
+#include "coupling/program/widening_task.h"
 
 namespace platen::coupling {
 namespace {
@@ -246,7 +246,7 @@ TEST(pressure, rises_from_what_it_finds_and_follows_a_share) {
 // part where it is ahead, no faster than they may.
 TEST(circumferential, leads_the_platens_by_the_width) {
   const double rate = 2, ramp = 1e-3, transit = 1e-5;
-  CircumferentialTask task({axial, rate, ramp, transit, 5});
+  WideningTask task({axial, rate, ramp, transit, 5});
   Seen seen;
   seen.wider = 3e-4;
   task.begin(seen, 0, {});
@@ -266,7 +266,30 @@ TEST(circumferential, leads_the_platens_by_the_width) {
   EXPECT_NEAR(speed(2e-3, later + 1e-5), 0.1 * (rate - 1e-5 / transit) / 0.2, 1e-9);
   EXPECT_NEAR(speed(2e-3, later + 1), -1e-4 * 0.1 / transit < -5 ? -1e-4 * 0.1 / transit : -5, 1e-9);
   EXPECT_NEAR(speed(2e-3, later - 1), 5, 1e-9);
-  EXPECT_THROW(CircumferentialTask({axial, 0, ramp, transit, 5}), std::invalid_argument);
+  EXPECT_THROW(WideningTask({axial, 0, ramp, transit, 5}), std::invalid_argument);
+}
+
+// The same with the opening of a notch, over the closure that a broken bar needs for it.
+TEST(program, leads_the_platens_by_the_mouth_of_a_notch) {
+  const double rate = 0.02, transit = 1e-5, closure = 0.9;
+  WideningTask task({axial, rate, 0, transit, 5, Widening::mouth, closure});
+  Seen seen;
+  seen.wider = 3e-6;
+  task.begin(seen, 0, {});
+  const auto speed = [&](double behind) { // m
+    seen.now = 2e-3 + 0.5 * dt, seen.wider = 3e-6 + rate * 2e-3 - behind;
+    Commands all(3);
+    for (int n = 0; n < 200; ++n)
+      task.command(seen, all);
+    return 2 * all[0].velocity[2];
+  };
+  EXPECT_NEAR(speed(0), closure * rate, 1e-9);
+  EXPECT_NEAR(speed(1e-6), closure * (rate + 1e-6 / (20 * transit)), 1e-9);
+  EXPECT_NEAR(speed(-1e-6), closure * (rate - 1e-6 / transit), 1e-9);
+  const std::optional<Controlled> told = task.controlled(seen);
+  ASSERT_TRUE(told);
+  EXPECT_EQ(told->quantity + " " + told->side + " " + told->unit, "cmod rate axial m/s");
+  EXPECT_THROW(WideningTask({axial, rate, 0, transit, 5, Widening::mouth}), std::invalid_argument);
 }
 
 } // namespace

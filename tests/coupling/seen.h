@@ -23,7 +23,7 @@ struct Seen : Measures {
   double time_step() const override { return dt; }
   double closure_strain() const override { return closure; }
   double closure_strain(int axis) const override { return axis == 2 ? closure : 0.1 * closure; }
-  double circumferential_strain() const override { return wider; }
+  double widening(Widening) const override { return wider; }
   double axial_stress() const override { return stress; }
   double lateral_pressure() const override { return pressure; }
   double broken_bonds() const override { return broken; }

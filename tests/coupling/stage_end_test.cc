@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "coupling/program/circumferential_task.h"
+#include "coupling/program/widening_task.h"
 #include "tests/same_state.h"
 
 namespace platen::coupling {
@@ -138,6 +138,7 @@ TEST(stage_end, is_met_at_its_value) {
       {until(R::stress, 4e6), from, seen(1, 0, 4.1e6), seen(1, 0, 4e6)},
       {until(R::share_of_start, 0.25), from, seen(1, 0, 2.1e6), seen(1, 0, 2e6)}, // less 1 MPa
       {until(R::circumferential_strain, 2e-4), from, seen(1, 0, 0, 1.9e-4), seen(1, 0, 0, 2e-4)},
+      {until(R::mouth_opening, 2e-4), from, seen(1, 0, 0, 1.9e-4), seen(1, 0, 0, 2e-4)},
       {until(R::time, 2e-3), from, seen(1.0019, 0, 5e6), seen(1.0021, 0, 5e6)}};
   Transfer handover;
   handover.zero = {0, 0, 0.5e-3};

@@ -1,7 +1,9 @@
 // A bar on two supports: what is read off it, and how it is laid down.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "dem/measure/gauge.h"
 #include "dem/packing/advancing_front.h"
@@ -80,6 +82,113 @@ TEST(bending, the_formulas_are_those_of_beams) {
                   (load * 0.3 / (4 * kappa * g * 0.02 * 0.03)),
               1, 1e-12);
   EXPECT_NEAR((ThreePoints{0.075, 0.025, 0.025}.shear_share(0.2)), 0.3, 0.02);
+}
+
+// Of the ligament above a notch: EN 14651.
+TEST(bending, the_ligament_of_a_notched_beam_is_a_beam_of_its_depth) {
+  const ThreePoints beam{0.14, 0.02, 0.04, 0.015};
+  EXPECT_DOUBLE_EQ(beam.ligament(), 0.025);
+  EXPECT_DOUBLE_EQ(beam.ligament_area(), 5e-4);
+  EXPECT_DOUBLE_EQ(beam.net_area(), (ThreePoints{0.14, 0.02, 0.025}.nominal_area()));
+  EXPECT_DOUBLE_EQ(beam.nominal_area(), (ThreePoints{0.14, 0.02, 0.04}.nominal_area()));
+}
+
+// A simple cubic lattice of 12 x 4 x 4 spheres that touch; columns lie at one radius from mid-span, three,
+// ...
+Specimen lattice_beam() {
+  Specimen s;
+  s.shape = box(24 * radius, 8 * radius, 8 * radius);
+  for (int x = -11; x <= 11; x += 2)
+    for (int y = -3; y <= 3; y += 2)
+      for (int z = 1; z <= 7; z += 2)
+        s.centre.push_back({x * radius, y * radius, z * radius}), s.radius.push_back(radius);
+  return s;
+}
+
+std::size_t bonds_across_the_middle(const Model &model, double below) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < model.bonds->size(); ++k) {
+    const Vector3 &a = model.particles.position[model.bonds->first[k]],
+                  &b = model.particles.position[model.bonds->second[k]];
+    count += (a.x < 0) != (b.x < 0) && std::min(a.z, b.z) < below;
+  }
+  return count;
+}
+
+TEST(bending, a_notch_takes_away_spheres_and_bonds) {
+  const Specimen whole = lattice_beam(), slotted = notched(whole, {4 * radius, 4 * radius});
+  EXPECT_EQ(whole.size(), 192u);
+  EXPECT_EQ(slotted.size(), 192u - 16); // two columns, four across, two layers
+  EXPECT_NEAR(slotted.shape.volume() / std::pow(radius, 3), 24 * 8 * 8 - 4 * 4 * 8, 1e-9);
+  for (const Vector3 &c : slotted.centre)
+    EXPECT_FALSE(c.z < 4 * radius && std::abs(c.x) < 2 * radius);
+  const Model model(slotted, bonded()), before(whole, bonded());
+  EXPECT_EQ(before.bonds->size(), 464u);
+  EXPECT_EQ(model.bonds->size(), 464u - 52); // 24 along x, 12 across, 16 upright
+  EXPECT_EQ(bonds_across_the_middle(model, 8 * radius), 8u);
+  EXPECT_EQ(bonds_across_the_middle(model, 4 * radius), 0u);
+  // Once more, and of a bar without one.
+  EXPECT_EQ(notched(slotted, slotted.shape.notch).size(), slotted.size());
+  EXPECT_EQ(notched(whole, {}).size(), whole.size());
+  EXPECT_FALSE(notched(whole, {0, radius}).shape.notch.is_there());
+}
+
+TEST(bending, a_notch_thinner_than_a_sphere_cuts_bonds_alone) {
+  for (const double width : {0.0, radius}) {
+    const Specimen cut = notched(lattice_beam(), {4 * radius, width});
+    EXPECT_EQ(cut.size(), 192u);
+    const Model model(cut, bonded());
+    EXPECT_EQ(model.bonds->size(), 464u - 8);
+    EXPECT_EQ(bonds_across_the_middle(model, 4 * radius), 0u);
+    EXPECT_EQ(bonds_across_the_middle(model, 8 * radius), 8u);
+  }
+  // A bond that slopes counts where it passes the middle.
+  const Notch notch{1, 0};
+  EXPECT_TRUE(notch.parts({-1, 0, 0}, {1, 0, 1.9}));
+  EXPECT_FALSE(notch.parts({-1, 0, 0}, {1, 0, 2.1}));
+  EXPECT_TRUE(notch.parts({3, 0, 3.9}, {-1, 0, 0}));
+  EXPECT_FALSE(notch.parts({3, 0, 4.1}, {-1, 0, 0}));
+  EXPECT_FALSE(notch.parts({1, 0, 0}, {2, 0, 0}));
+}
+
+TEST(bending, what_is_no_notch_is_refused) {
+  const Specimen whole = lattice_beam();
+  for (const Notch &notch : {Notch{-1e-3, 0}, Notch{1e-3, -1e-3}, Notch{std::nan(""), 0},
+                             Notch{1e-3, std::numeric_limits<double>::infinity()}})
+    EXPECT_THROW(notched(whole, notch), std::invalid_argument);
+  Specimen round;
+  round.shape = cylinder(radius, radius);
+  EXPECT_THROW(notched(round, {radius, 0}), std::invalid_argument);
+  EXPECT_EQ(notched(round, {}).size(), 0u);
+}
+
+// Two halves that turn about the upper face by phi: those beside the mouth lie three radii from mid-span and
+// one above the lower face.
+TEST(bending, a_mouth_opens_as_its_halves_turn) {
+  const Specimen specimen = notched(lattice_beam(), {4 * radius, 4 * radius});
+  Model model(specimen, bonded());
+  Particles &p = model.particles;
+  const MouthOpening mouth(p, specimen.shape.notch, model.bonds.get());
+  const std::vector<int> rows = mouth.rows();
+  EXPECT_EQ(rows.size(), 8u);
+  EXPECT_TRUE(std::is_sorted(rows.begin(), rows.end()));
+  EXPECT_EQ(mouth(p), 0);
+  const double phi = 2e-3, depth = 8 * radius;
+  const auto turn = [&](double shift) {
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const Vector3 &x = p.reference_position[i];
+      const double to = x.x < 0 ? -phi : phi, down = depth - x.z;
+      p.position[i] = {x.x * std::cos(to) + down * std::sin(to) + shift, x.y,
+                       depth + x.x * std::sin(to) - down * std::cos(to)};
+    }
+  };
+  // Positions of 1e-2 m to 1e-18 m.
+  const double opening = 2 * (7 * radius * std::sin(phi) - 3 * radius * (1 - std::cos(phi)));
+  turn(0);
+  EXPECT_NEAR(mouth(p), opening, 1e-16);
+  turn(5 * radius); // as a whole
+  EXPECT_NEAR(mouth(p), opening, 1e-16);
+  EXPECT_THROW(MouthOpening(p, {1.9 * radius, 4 * radius}, nullptr), std::invalid_argument);
 }
 
 } // namespace

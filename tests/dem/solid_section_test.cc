@@ -68,6 +68,14 @@ TEST(solid_section, is_exact_of_hollow_lattices) {
   expect_even(solid_section(lattice(20, 4, 6, [](int, int, int z) { return z < 4; }), 0), 4. / 6, 1e-9);
 }
 
+// What a notch has taken away belongs to the shape.
+TEST(solid_section, a_notched_lattice_fills_what_is_left) {
+  Specimen s = notched(lattice(12, 4, 6, all), {4 * radius, 4 * radius});
+  expect_even(solid_section(s, 0), 1, 1e-9);
+  s.shape.notch = {};
+  EXPECT_LT(solid_section(s, 0).least, 0.8);
+}
+
 TEST(solid_section, is_the_same_of_any_size) {
   Specimen s = lattice(8, 8, 16, hollow);
   s.shape = scaled(s.shape, 50);

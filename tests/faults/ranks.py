@@ -75,6 +75,8 @@ CASES = {
     "start_strain": crushed("Loading/Start strain = 4e-4"),
     "tension": crushed("Loading/Test = tension", "Platens/Attachment = glued", "Loading/Target strain = 0.002"),
     "bending": ("platen-compress", SCENES / "bent.prm", []),
+    "notched": ("platen-compress", SCENES / "bent.prm", ["Specimen/Notch depth = 4 mm", "Loading/Stage 1/Axial = cmod rate 20 mm/s",
+                                                         "Loading/Stage 1/Until = cmod 20 um"]),
     "brazilian": ("platen-brazilian", SCENES / "split.prm", []),
     "six_platens": ("platen-compress", TRUE_TRIAXIAL, ["Specimen/Sphere radius = 2.4 mm"]),
     "stages": ("platen-compress", STAGES, ["Specimen/Sphere radius = 2.8 mm"]),

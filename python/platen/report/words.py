@@ -7,7 +7,7 @@ from .pages import Table
 from .platens import friction_words
 from .run import TestRun, listed, number_in, number_with_unit, unit_factor
 
-_FACTOR = {"": 1, "degrees": 1, "MPa": 1e-6, "GPa": 1e-9, "kN": 1e-3, "um": 1e6, "mm/m": 1e3}
+_FACTOR = {"": 1, "degrees": 1, "MPa": 1e-6, "GPa": 1e-9, "kN": 1e-3, "um": 1e6, "mm/m": 1e3, "J/m2": 1}
 # Figures of summary.json: unit, keys (the worst of several: the largest, or the least where LEAST). Those that are always shown,
 # those that some tests have, and those whose ratio of two runs means nothing.
 ALWAYS = {
@@ -20,7 +20,9 @@ GIVEN = {
     "bulk modulus": ("GPa", "bulk_modulus_pa"), "constrained modulus": ("GPa", "constrained_modulus_pa"),
     "tensile strength": ("MPa", "tensile_strength_pa"), "flexural modulus": ("GPa", "flexural_modulus_pa"),
     "load at failure": ("kN", "failure_load_n"), "opening at peak": ("um", "opening_at_peak_m"),
-    "deflection at peak": ("um", "deflection_at_peak_m"), "damage of the worse end": ("", "end_damage_top", "end_damage_bottom"),
+    "deflection at peak": ("um", "deflection_at_peak_m"), "strength of the ligament": ("MPa", "net_strength_pa"),
+    "mouth opening at peak": ("um", "cmod_at_peak_m"), "fracture energy": ("J/m2", "fracture_energy_j_m2"),
+    "fracture energy of the bonds": ("J/m2", "bond_fracture_energy_j_m2"), "damage of the worse end": ("", "end_damage_top", "end_damage_bottom"),
     "damage of the middle": ("", "middle_damage")}
 ALONE = {
     "spread of the ends": ("", "end_spread"), "barrel at peak": ("", "barrel_at_peak"),
@@ -32,7 +34,7 @@ ALONE = {
     "b-value before the peak": ("", "acoustic/b_before"), "b-value after the peak": ("", "acoustic/b_after")}
 FIGURES = {**ALWAYS, **GIVEN, **ALONE}
 LEAST = "base of the worse end's cone, r0"
-ENDINGS = (("_kg_m3", "kg/m3"), ("_pa", "Pa"), ("_m", "m"), ("_n", "N"), ("_s", "s"), ("_deg", "degrees"))
+ENDINGS = (("_kg_m3", "kg/m3"), ("_j_m2", "J/m2"), ("_pa", "Pa"), ("_m", "m"), ("_n", "N"), ("_s", "s"), ("_deg", "degrees"))
 # Sections whose entries change nothing of the specimen and its test.
 _ASIDE = ("Output/", "Checkpoint/", "Expect/", "Scene/Title")
 # Main parameters of a bond law, as far as a scene has them.
