@@ -63,7 +63,7 @@ def gather(where):
         for name, run in platen.runs(folder).items():
             if run.status == "done":  # triaxial, confining_pressure_4.5_mpa_seed_1: triaxial_4.5_1
                 value, seed = re.search(r"(?:_(\d[\d.]*|free)(?:_mm|_mpa)?_)?seed_(\d+)$", name).groups()
-                name = "_".join(filter(None, (folder.parent.name, value, seed)))
+                name = "_".join(filter(None, (folder.parent.name.split("-")[0], value, seed)))
                 found[name] = figures(name, run)
     with open(kept, "w", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
@@ -224,6 +224,19 @@ def has_cones(s):
     return 1.0 if s["pattern"] == "cones" else 0.0
 
 
+def half_angles():
+    """Degrees: the mean of each packing's cones at friction .57 and .3; that of a Mohr-Coulomb solid, none without k."""
+    angles = {}
+    for seed in KNOWN + UNSEEN:
+        held = [run for n in ("concrete_0.57", "concrete_0.3") if (run := found.get(f"{n}_{seed}"))]
+        of_cones = [run[f"half_angle_{end}_deg"] for run in held for end in ("top", "bottom")]
+        of_cones = [angle for angle in of_cones if not math.isnan(angle)]
+        if of_cones:
+            angles[seed] = statistics.mean(of_cones)
+    k = secant("9")
+    return angles, math.degrees(math.atan(statistics.mean(k.values()) ** -0.5)) if k else None
+
+
 def friction():
     heading("Friction of platens, cylinders of height over diameter 2, at .8 of the peak")
     for mu in ("0.57", "0.3", "0.1", "0"):
@@ -234,15 +247,7 @@ def friction():
         row("damage of the middle", of_seeds(name, "middle_damage"), 0.5 if held else None)
         row("r0 of the worse end's dead zone", of_seeds(name, "least_base_ratio"))
         row("share of packings with cones", of_seeds(name, has_cones), 1 if held else None, 0 if greased else None)
-    angles = {}
-    for seed in KNOWN + UNSEEN:
-        held = [run for n in ("concrete_0.57", "concrete_0.3") if (run := found.get(f"{n}_{seed}"))]
-        of_cones = [run[f"half_angle_{end}_deg"] for run in held for end in ("top", "bottom")]
-        of_cones = [angle for angle in of_cones if not math.isnan(angle)]
-        if of_cones:
-            angles[seed] = statistics.mean(of_cones)
-    k = secant("9")
-    mohr = math.degrees(math.atan(statistics.mean(k.values()) ** -0.5)) if k else None
+    angles, mohr = half_angles()
     row("half-angle of cones by displacement, .3 and .57, degrees", angles, mohr and mohr - 6, mohr and mohr + 6,
         f"{mohr:.0f}, Mohr-Coulomb with k at 9 MPa" if mohr else "")
 
@@ -256,6 +261,57 @@ def recipe():
     row("half the speed over the speed", ratio(of_seeds("half_rate", STRENGTH), dry))
 
 
+def any_stress():
+    """Rows of one concrete under any stress, with its bands; ends with how many are within."""
+    heading("Under any stress")
+    counted = []
+
+    def figure(what, figures, low, high, laboratory=""):
+        row(what, figures, low, high, laboratory)
+        counted.append(verdict([figures[s] for s in KNOWN if s in figures], low, high))
+
+    dry, cylinder = of_seeds("concrete_0.57", STRENGTH, MPA), "concrete_0.57"
+    figure("E, GPa", of_seeds(cylinder, "youngs_modulus_gauge_pa", GPA), 25, 30)
+    figure("Poisson's ratio", of_seeds(cylinder, "poisson_ratio"), 0.15, 0.20)
+    figure("strength, dry, MPa", dry, 35, 45)
+    figure("strain at peak, 1e-3", of_seeds(cylinder, "strain_at_peak_platen", 1e3), 2.0, 2.6)
+    tension = of_seeds("tension", STRENGTH, MPA)
+    figure("compressive over direct tensile strength", ratio(dry, tension), 8, 12)
+    figure("splitting over direct tension", ratio(of_seeds("splitting", STRENGTH, MPA), tension), 0.9, 1.15)
+    figure("bending over direct tension", ratio(of_seeds("bending", STRENGTH, MPA), tension), 1.2, 2)
+    for platens in ("brush", "smooth"):
+        alone = of_seeds(f"biaxial_{platens}_free", STRENGTH, MPA)
+        for share, low, high, kupfer in (("1", 1.08, 1.24, "1.16, Kupfer et al. 1969"), ("0.5", 1.15, 1.35, "")):
+            both = of_seeds(f"biaxial_{platens}_{share}", STRENGTH, MPA)
+            figure(f"two stresses 1 : {share} over one, {platens} platens", ratio(both, alone), low, high, kupfer)
+    bare = of_seeds("triaxial_0", STRENGTH, MPA)
+    for pressure in ("1.5", "3", "9", "30"):
+        fc, p = statistics.mean(bare.values()) if bare else 43, float(pressure)
+        lines = sorted((f(fc, p) - fc) / p for f in (mander, newman))
+        figure(f"k at {pressure} MPa", secant(pressure), 0.8 * lines[0], 1.2 * lines[1],
+               f"{lines[0]:.1f} ... {lines[1]:.1f}, Mander 1988, EN 1998-3")
+    at_peak = {p: of_seeds(f"triaxial_{p}", "strain_at_peak_platen") for p in ("0", "9")}
+    figure("strain at peak at 9 MPa over bare", ratio(at_peak["9"], at_peak["0"]), 3, 6.5)
+    figure("last over peak at 9 MPa, at 3.45e-2", of_seeds("triaxial_9", "left_at_0.0345"), 0.85, None)
+    figure("volume at its peak at 9 MPa, %", of_seeds("triaxial_9", "volume_at_peak_percent"), -0.3, 0.5, ".1, Imran and Pantazopoulou 1996")
+    figure("the same at 30 MPa", of_seeds("triaxial_30", "volume_at_peak_percent"), -1.0, 0.2, "-.4, the same")
+    for form, low, high in (("cube", 1.21, 1.59), ("prism", 1.03, 1.12)):
+        held, free = (of_seeds(f"{form}_{mu}", STRENGTH) for mu in ("0.3", "0"))
+        figure(f"{form}, friction .3 over 0", ratio(held, free), low, high)
+    for height, share, factor in (("50", "1", 1 / 0.87), ("62.5", "1.25", 1 / 0.93), ("75", "1.5", 1 / 0.96), ("87.5", "1.75", 1 / 0.98)):
+        core = ratio(of_seeds(f"core_{height}", STRENGTH, MPA), dry)
+        figure(f"height over diameter {share} over 2, friction .57", core, 0.95 * factor, 1.05 * factor, f"{factor:.2f}, ASTM C42")
+    figure(".5 over 2, friction .57", ratio(of_seeds("flat", STRENGTH, MPA), dry), 1.5, 2.2)
+    for mu, low, high in (("0.57", 1, None), ("0.3", 1, None), ("0", None, 0)):
+        figure(f"share of packings with cones, friction {mu}", of_seeds(f"concrete_{mu}", has_cones), low, high)
+    angles, mohr = half_angles()
+    figure("half-angle of cones, .3 and .57, degrees", angles, mohr and mohr - 6, mohr and mohr + 6,
+           f"{mohr:.0f}, Mohr-Coulomb with k at 9 MPa" if mohr else "")
+    print(f"\n{counted.count('within')} of {len(counted) - counted.count('not run')} rows within, "
+          f"{counted.count('not run')} not run")
+
+
+any_stress()
 plain()
 triaxial()
 friction()
