@@ -36,7 +36,7 @@ struct Shape {
   double radius = 0;               // m, cylinder, disc
   double width_x = 0, width_y = 0; // m, box; for a disc: 2 r and its thickness
   double height = 0;               // m
-  Notch notch;                     // only of a box
+  Notch notch = {};                // only of a box
 
   // m^2, by which a load along z is divided; for a disc pi r w, which gives 2 P / (pi D w).
   double cross_section() const {

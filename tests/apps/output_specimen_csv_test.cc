@@ -59,7 +59,7 @@ TEST_F(SpecimenCsv, reads_back_to_the_same_bits) {
   SpecimenFile back = read_specimen_csv(path_);
   EXPECT_TRUE(back.states_shape);
   expect_same_bits(back.specimen, specimen);
-  specimen.shape = dem::box(0.01 / 3, 0.02, 0.7);
+  specimen.shape = {dem::ShapeKind::box, 0, 0.01 / 3, 0.02, 0.7};
   write_specimen_csv(path_, specimen);
   expect_same_bits(read_specimen_csv(path_).specimen, specimen);
 }

@@ -210,8 +210,7 @@ PlatenTestSettings column_settings() {
 
 dem::Specimen column() {
   dem::Specimen s = spheres({{0, 0, sphere_radius}, {0, 0, 3 * sphere_radius}});
-  s.shape.kind = dem::ShapeKind::cylinder;
-  s.shape.radius = sphere_radius, s.shape.width_x = 4 * sphere_radius;
+  s.shape = {dem::ShapeKind::cylinder, sphere_radius, 4 * sphere_radius};
   return s;
 }
 
