@@ -52,6 +52,9 @@ sides="Loading/Stage 1/Lateral x: free, share of Axial 0.5, share of Axial 1"
 study biaxial_smooth biaxial_steel "$sides" "Platens/Friction static = 0"
 study biaxial_steel biaxial_steel "$sides"
 study biaxial_brush biaxial_brush "$sides"
+for platens in steel brush; do
+  study biaxial_$platens-more biaxial_$platens "Loading/Stage 1/Lateral x: share of Axial 0.25"
+done
 study layer concrete_dry "Platens/Friction static: 0.57, 0" "Specimen/End layer = 0.6"
 study half_rate concrete_dry "$bare" "Loading/Axial rate = 0.0375 m/s"
 for seed in 1 2 3 4 5 6 7; do
