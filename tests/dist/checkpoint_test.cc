@@ -1,20 +1,12 @@
 // The file of one checkpoint, written by ranks that hold a part of its rows each: the bytes that one process
 // writes, and any number of ranks goes on from it. Every rank has both models.
-#include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
-#include <csignal>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-
 #include "apps/output/checkpoint.h"
 #include "apps/output/checkpoint_folder.h"
 #include "apps/output/rank_checkpoint.h"
 #include "apps/scene/rank.h"
 #include "dist/ranks.h"
 #include "tests/dist/cracking_block.h"
+#include "tests/dist/on_ranks.h"
 #include "tests/same_state.h"
 
 using namespace platen;
@@ -24,26 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using platen::dist::testing::block_of;
-using platen::dist::testing::run;
-using platen::dist::testing::with_all;
-
-int rank_of_this() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
-
-int number_of_ranks() {
-  int size = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
-  return size;
-}
-
-std::string bytes_in(const fs::path &path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+using namespace platen::dist::testing;
 
 // A block that is cut over these ranks.
 std::unique_ptr<dem::Model> cut_block(const dem::ModelSettings &settings, MPI_Comm over) {
@@ -67,19 +40,14 @@ fs::path write_of_ranks(dem::Model &model, const fs::path &folder, std::uint64_t
                                [&](StateSink &to) { fill(to, model); });
 }
 
-class Checkpoint : public ::testing::Test {
+class Checkpoint : public dist::testing::WithFolder {
 protected:
   void SetUp() override {
     this_rank() = {rank_of_this(), number_of_ranks()};
-    int number = static_cast<int>(::getpid());
-    MPI_Bcast(&number, 1, MPI_INT, 0, MPI_COMM_WORLD);
-    folder_ = fs::temp_directory_path() / ("platen_checkpoint_of_ranks_" + std::to_string(number));
-    if (rank_of_this() == 0) fs::create_directories(folder_);
-    MPI_Barrier(MPI_COMM_WORLD);
+    WithFolder::SetUp();
   }
   void TearDown() override {
-    MPI_Barrier(MPI_COMM_WORLD);
-    if (rank_of_this() == 0) fs::remove_all(folder_);
+    WithFolder::TearDown();
     this_rank() = {};
   }
   // By rank 0, read by all.
@@ -119,7 +87,6 @@ protected:
     EXPECT_TRUE(same_state(*alone, *cut)) << "after the checkpoints";
     EXPECT_EQ(alone->energy().residual(), cut->energy().residual());
   }
-  fs::path folder_;
 };
 
 TEST_F(Checkpoint, of_a_cracking_block_with_all_effects_is_the_file_of_one_process) {
@@ -182,22 +149,14 @@ TEST_F(Checkpoint, that_one_rank_cannot_write_leaves_the_former_ones) {
   run(*cut, 10, 1e-8);
   // One that has rows to write.
   const int last = dynamic_cast<const Ranks &>(*cut->exchange()).partition().useful_ranks - 1;
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  MPI_Barrier(MPI_COMM_WORLD);
-  if (rank_of_this() == last) {
-    const rlimit small{100, before.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &small);
-  }
   std::string error;
-  try {
-    write_of_ranks(*cut, folder_, 20);
-  } catch (const OutputError &e) {
-    error = e.what();
-  }
-  setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, handler);
+  with_small_files(last, 100, [&] {
+    try {
+      write_of_ranks(*cut, folder_, 20);
+    } catch (const OutputError &e) {
+      error = e.what();
+    }
+  });
   const fs::path path = checkpoint_path(folder_, 20);
   EXPECT_EQ(error, part_path(path).string() + ": cannot be written: File too large (rank " +
                        std::to_string(last) + ")");

@@ -1,7 +1,5 @@
 #include "dist/partition.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -9,6 +7,7 @@
 
 #include "block_graphs.h"
 #include "dist/zoltan_cut.h"
+#include "on_ranks.h"
 
 using namespace platen;
 using namespace platen::dist;
@@ -17,11 +16,7 @@ namespace {
 
 using Method = PartitionMethod;
 
-int ranks() {
-  int number = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &number);
-  return number;
-}
+const auto ranks = platen::dist::testing::number_of_ranks;
 
 Partition cut(const BlockGraph &graph, std::vector<Method> methods = {Method::graph, Method::bisection}) {
   PartitionLimits limits;
