@@ -89,38 +89,20 @@ protected:
   }
 };
 
-TEST_F(Checkpoint, of_a_cracking_block_with_all_effects_is_the_file_of_one_process) {
-  expect_the_same_files(with_all());
-}
-
-TEST_F(Checkpoint, with_a_history_of_friction_and_rolling_is_the_file_of_one_process) {
-  dem::ModelSettings settings = with_all();
-  settings.bond_dashpot = 0;
-  settings.contact->normal = dem::NormalContact::hertz;
-  settings.contact->tangential = dem::TangentialContact::coulomb_with_rolling;
-  settings.contact->rolling_friction = .2;
-  expect_the_same_files(settings);
-}
-
-TEST_F(Checkpoint, of_bonds_that_remember_is_the_file_of_one_process) {
-  expect_the_same_files(dem::examples::interfaces());
-}
-
-TEST_F(Checkpoint, without_bonds_or_without_contacts_is_the_file_of_one_process) {
-  dem::ModelSettings settings = dem::examples::breakable();
-  settings.contact.reset();
-  settings.rotation = false;
-  expect_the_same_files(settings);
-  settings = dem::examples::breakable();
-  settings.bond.reset();
-  const auto alone = block_of(settings), cut = cut_block(settings, MPI_COMM_WORLD);
+TEST_F(Checkpoint, is_the_file_of_one_process) {
+  for (const char *name :
+       {"all_effects", "hertz_and_rolling", "interfaces", "bonds_alone", "without_rotation"}) {
+    SCOPED_TRACE(name);
+    expect_the_same_files(set_up(name));
+  }
+  const auto alone = block_of(set_up("grains")), cut = cut_block(set_up("grains"), MPI_COMM_WORLD);
   run(*alone, 20, 1e-7), run(*cut, 20, 1e-7);
   expect_the_same_file(*alone, *cut, 20);
 }
 
 // Two groups of ranks, the first smaller, and one process go on from the file of all.
 TEST_F(Checkpoint, is_gone_on_from_by_other_numbers_of_ranks) {
-  const auto before = cut_block(with_all(), MPI_COMM_WORLD);
+  const auto before = cut_block(set_up("all_effects"), MPI_COMM_WORLD);
   const double dt = .5 * before->stable_step({}, 0).limit;
   run(*before, 60, dt);
   const fs::path path = write_of_ranks(*before, folder_, 60);
@@ -129,7 +111,7 @@ TEST_F(Checkpoint, is_gone_on_from_by_other_numbers_of_ranks) {
   MPI_Comm group = MPI_COMM_NULL;
   const int first = (number_of_ranks() + 2) / 3;
   MPI_Comm_split(MPI_COMM_WORLD, rank_of_this() < first, rank_of_this(), &group);
-  const auto resumed = cut_block(with_all(), group), alone = block_of(with_all());
+  const auto resumed = cut_block(set_up("all_effects"), group), alone = block_of(set_up("all_effects"));
   for (dem::Model *model : {resumed.get(), alone.get()}) {
     read_part(CheckpointReader(path), "specimen", *model);
     run(*model, 20, dt);
@@ -143,7 +125,7 @@ TEST_F(Checkpoint, is_gone_on_from_by_other_numbers_of_ranks) {
 
 // The last rank may write no byte beyond the first hundred of a file.
 TEST_F(Checkpoint, that_one_rank_cannot_write_leaves_the_former_ones) {
-  const auto cut = cut_block(with_all(), MPI_COMM_WORLD);
+  const auto cut = cut_block(set_up("all_effects"), MPI_COMM_WORLD);
   run(*cut, 10, 1e-8);
   const std::string former = bytes_in(write_of_ranks(*cut, folder_, 10));
   run(*cut, 10, 1e-8);
@@ -170,7 +152,7 @@ TEST_F(Checkpoint, that_one_rank_cannot_write_leaves_the_former_ones) {
 }
 
 TEST_F(Checkpoint, whose_folder_cannot_be_made_is_told_on_all_ranks) {
-  const auto cut = cut_block(with_all(), MPI_COMM_WORLD);
+  const auto cut = cut_block(set_up("all_effects"), MPI_COMM_WORLD);
   run(*cut, 10, 1e-8);
   const fs::path file = folder_ / "file";
   if (rank_of_this() == 0) std::ofstream(file) << "no folder";
@@ -184,7 +166,7 @@ TEST_F(Checkpoint, whose_folder_cannot_be_made_is_told_on_all_ranks) {
 }
 
 TEST_F(Checkpoint, of_ranks_keeps_the_two_newest) {
-  const auto cut = cut_block(with_all(), MPI_COMM_WORLD);
+  const auto cut = cut_block(set_up("all_effects"), MPI_COMM_WORLD);
   for (const std::uint64_t step : {10, 20, 30}) {
     run(*cut, 10, 1e-8);
     write_of_ranks(*cut, folder_, step);
