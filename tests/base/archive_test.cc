@@ -60,19 +60,6 @@ std::string message(const Act &act) {
   return "nothing was refused";
 }
 
-// A copy of a state without one block, or with another in its place.
-State changed(const State &state, const std::string &left_out) {
-  State result;
-  for (const std::string &name : state.names()) {
-    if (name == left_out) continue;
-    const StoredBlock block = *state.find(name);
-    std::vector<char> bytes(block.rows * block.type.bytes_per_row());
-    state.read(name, bytes.data());
-    result.add(name, block.type, bytes.data(), block.rows);
-  }
-  return result;
-}
-
 TEST(archive, gives_back_every_bit_of_every_kind_of_value) {
   const Machine whole;
   Machine other;
@@ -103,7 +90,7 @@ TEST(archive, what_a_state_lacks_is_refused_by_its_name) {
   const State whole = state_of(Machine());
   for (const std::string &name : whole.names()) {
     Machine machine;
-    EXPECT_EQ(message([&] { set_state(machine, changed(whole, name)); }), "lacks \"" + name + "\"");
+    EXPECT_EQ(message([&] { set_state(machine, without(whole, name)); }), "lacks \"" + name + "\"");
   }
 }
 
@@ -161,7 +148,7 @@ TEST(archive, a_part_of_a_newer_version_is_refused_by_its_name) {
 TEST(archive, another_kind_unit_or_length_is_refused_by_name) {
   const State whole = state_of(Machine());
   const auto with = [&](const std::string &name, const BlockType &type, std::size_t rows) {
-    State state = changed(whole, name);
+    State state = without(whole, name);
     const std::vector<char> zeros(rows * type.bytes_per_row());
     state.add(name, type, zeros.data(), rows);
     Machine machine;
@@ -291,7 +278,7 @@ TEST(archive, a_table_of_another_size_is_refused_with_both) {
 // The first blocks are good, the last is not.
 TEST(archive, a_part_that_refuses_a_state_is_as_it_was) {
   const Machine good;
-  State bad = changed(state_of(good), "state/spring/force");
+  State bad = without(state_of(good), "state/spring/force");
   add_rows(bad, "state/spring/force", std::vector<double>{INFINITY}, "N");
   Machine machine;
   machine.time = 5, machine.list = {1}, machine.reason = "mine", machine.table.resize(4),
@@ -346,7 +333,7 @@ TEST(state, the_first_difference_is_told_by_name_row_and_number) {
   Machine c;
   c.reason = "bond 8";
   EXPECT_EQ(first_difference(state_of(a), state_of(c)), "state/reason: \"bond 7\" and \"bond 8\"");
-  const State whole = state_of(a), less = changed(whole, "state/spring/force");
+  const State whole = state_of(a), less = without(whole, "state/spring/force");
   EXPECT_EQ(first_difference(whole, less), "state/spring/force: only the first has it");
   EXPECT_EQ(first_difference(less, whole), "state/spring/force: only the second has it");
 }

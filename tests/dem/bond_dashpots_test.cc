@@ -121,8 +121,7 @@ TEST_P(DashpotsOfBreaks, count_a_block_with_a_break_once) {
                             static_cast<std::size_t>(b.first[broken]) / block_rows);
   EXPECT_NEAR(work.value(), -.5 * dt * power, 1e-12 * dt * power);
   for (int k = 0; k < static_cast<int>(b.size()); ++k) {
-    const Vector3 expected = k == broken ? Vector3{} : before[static_cast<std::size_t>(k)],
-                  now = (*b.dashpot_force)[k];
+    const Vector3 expected = k == broken ? Vector3{} : before[k], now = (*b.dashpot_force)[k];
     ASSERT_TRUE(now.x == expected.x && now.y == expected.y && now.z == expected.z) << "row " << k;
   }
 }
@@ -137,6 +136,44 @@ INSTANTIATE_TEST_SUITE_P(interfaces, BondDashpots,
                                          Case{"turning_interfaces", true, false, true},
                                          Case{"bending_cohesive", true, true, true}),
                          name_of);
+
+// Onate's dashpot: 2 gamma alpha r_c / |D| of critical, alpha r_c^2 the square of the bond's radius, along
+// the normal alone; other bonds take gamma itself.
+TEST(bond_history, dashpots_are_the_share_of_critical_that_their_law_says) {
+  constexpr double gamma = .3, large = 2 * radius;
+  for (const bool by_range : {true, false}) {
+    ModelSettings settings = by_range ? interfaces() : bonded();
+    settings.bond_dashpot = gamma;
+    const double distance = (by_range ? 1.05 : 1.) * (radius + large);
+    Specimen s = spheres({{0, 0, 0}, {distance, 0, 0}});
+    s.radius = {radius, large};
+    const Model model(s, settings);
+    const Particles &p = model.particles;
+    const Bonds &b = *model.bonds;
+    ASSERT_EQ(b.size(), 1u);
+    const double section = pi * b.bond_radius[0] * b.bond_radius[0],
+                 critical = 2 * std::sqrt(b.normal_stiffness[0] * section * p.mass[0] * p.mass[1] /
+                                          (p.mass[0] + p.mass[1])),
+                 share = by_range ? gamma * b.bond_radius[0] * b.bond_radius[0] / (radius * distance) : gamma;
+    EXPECT_NEAR((*b.dashpot)[0], share * critical, 1e-12 * critical) << by_range;
+    EXPECT_NEAR(b.dashpot_shear_ratio, by_range ? 0 : std::sqrt(stiffness_ratio), 1e-12) << by_range;
+  }
+}
+
+// Memory that a model says it takes, by what it has.
+TEST(bond_history, memory_is_that_of_spheres_bonds_and_contacts) {
+  const Specimen specimen = row(9, {1, 0, 0});
+  ModelSettings neither = breakable();
+  neither.contact.reset();
+  const ModelSettings with_bonds = neither, with_both = breakable();
+  neither.bond.reset();
+  const Model alone(specimen, neither), bonds(specimen, with_bonds), both(specimen, with_both);
+  EXPECT_GE(alone.bytes(), 10 * 9 * sizeof(double)); // places, velocities, forces
+  EXPECT_EQ(bonds.bytes() - alone.bytes(), bonds.bonds->bytes());
+  EXPECT_GE(bonds.bonds->bytes(), 9 * 8 * sizeof(double));
+  EXPECT_EQ(both.bytes() - bonds.bytes(), both.contacts->table.size() * both.contacts->table.bytes_per_row() +
+                                              both.contacts->search_state().bytes());
+}
 
 } // namespace
 } // namespace platen::dem

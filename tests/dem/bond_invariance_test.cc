@@ -1,4 +1,4 @@
-// What must not change a bond's force: rigid motion, the frame, the order of particles.
+// What must not change a bond's force: rigid motion, the frame, the order of particles, units and origin.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,31 +45,6 @@ TEST(bond_invariance, ten_rigid_turns_break_nothing_and_store_nothing) {
   EXPECT_LT(bond_energy(p, *model.bonds), 1e-20 * at_strength * static_cast<double>(model.bonds->size()));
 }
 
-// A cluster that spins freely stretches under its own weight; the bond forces then rotate with it.
-TEST(bond_invariance, a_preloaded_bond_keeps_its_force_in_the_turning_frame) {
-  Model model(row(1, {.2, .5, -.4}), bonded());
-  Particles &p = model.particles;
-  const Vector3 n = (p.position[1] - p.position[0]) / (2 * radius);
-  const Vector3 side = cross(n, Vector3{1, 0, 0}) / norm(cross(n, Vector3{1, 0, 0}));
-  const double strain = .5 * tensile_strength / modulus; // half the strength
-  p.position[1] += 2 * radius * strain * (n + .7 * side);
-  (*p.orientation)[1] = rotation_quaternion(strain * (n + side));
-  std::vector<BondBreak> breaks;
-  const Loads before = kernel_loads(p, *model.bonds, InstructionSet::baseline, breaks);
-  const Vector3 force = before.force[0], torque = before.torque[0];
-  ASSERT_NEAR(dot(force, n), .5 * tensile_strength * area, 1e-3 * tensile_strength * area);
-  const Quaternion turn = rotation_quaternion(.01 * skew_axis);
-  Quaternion whole;
-  for (int s = 0; s < 6283; ++s) {
-    turn_rigidly(p, turn, {});
-    whole = normalised(turn * whole);
-  }
-  const Loads after = kernel_loads(p, *model.bonds, InstructionSet::baseline, breaks);
-  // The law is exact; the tolerance is for 6000 roundings of a strain of 1e-4.
-  EXPECT_LT(norm(after.force[0] - rotate(whole, force)), 1e-6 * norm(force));
-  EXPECT_LT(norm(after.torque[0] - rotate(whole, torque)), 1e-6 * norm(torque));
-}
-
 // A free pair spinning about a skew axis, started at its own stretched equilibrium: it spins on without
 // sound.
 TEST(bond_invariance, a_freely_spinning_pair_keeps_its_stretch) {
@@ -110,13 +85,13 @@ struct Course {
 Course course(const std::vector<int> &order, const Quaternion &turn, int steps) {
   Specimen specimen = packed_box(10, 10, 10), shuffled = specimen;
   for (std::size_t k = 0; k < order.size(); ++k) {
-    shuffled.centre[k] = rotate(turn, specimen.centre[static_cast<std::size_t>(order[k])]);
-    shuffled.radius[k] = specimen.radius[static_cast<std::size_t>(order[k])];
+    shuffled.centre[k] = rotate(turn, specimen.centre[order[k]]);
+    shuffled.radius[k] = specimen.radius[order[k]];
   }
   Model model(shuffled, breakable());
   Particles &p = model.particles;
   for (std::size_t k = 0; k < p.size(); ++k) {
-    Random random(static_cast<std::uint64_t>(order[static_cast<std::size_t>(p.id[k])]));
+    Random random(static_cast<std::uint64_t>(order[p.id[k]]));
     p.velocity[k] = rotate(turn, .05 * random.direction());
     (*p.angular_velocity)[k] = rotate(turn, (.01 / radius) * random.direction());
   }
@@ -125,7 +100,7 @@ Course course(const std::vector<int> &order, const Quaternion &turn, int steps) 
   step(model, 1e-7, steps);
   EXPECT_EQ(model.broken_tension + model.broken_shear, 0);
   for (std::size_t k = 0; k < p.size(); ++k) {
-    const std::size_t id = static_cast<std::size_t>(order[static_cast<std::size_t>(p.id[k])]);
+    const std::size_t id = static_cast<std::size_t>(order[p.id[k]]);
     c.position[id] = rotate(conjugate(turn), p.position[k]);
     c.start[id] = rotate(conjugate(turn), p.reference_position[k]);
   }
@@ -161,6 +136,38 @@ TEST(bond_invariance, the_frame_does_not_matter) {
   const Course straight = course(order, {}, 1000);
   expect_below(9, "difference_of_places_in_a_turned_frame",
                difference(straight, course(order, rotation_quaternion(1.1 * skew_axis), 1000)), 1e-9);
+}
+
+// What the bonds of a free block in motion store, J, with the origin moved by `shift` and computed in units
+// of which a metre has `length` and a kilogram `mass`: mm-t-s has 1e3 and 1e-3.
+double energy_of_block(const Vector3 &shift, double length, double mass) {
+  Specimen specimen = packed_box(8, 8, 8);
+  for (std::size_t i = 0; i < specimen.size(); ++i) {
+    specimen.centre[i] = length * specimen.centre[i] + shift;
+    specimen.radius[i] *= length;
+  }
+  ModelSettings settings = bonded();
+  settings.density *= mass / (length * length * length);
+  settings.bond_layout.modulus *= mass / length; // per s^2
+  Model model(specimen, settings);
+  Particles &p = model.particles;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    Random random(static_cast<std::uint64_t>(p.id[i]));
+    p.velocity[i] = length * .05 * random.direction();
+  }
+  step(model, 1e-7, 500);
+  return model.energy().bonds / (mass * length * length); // J
+}
+
+TEST(bond_invariance, units_and_the_place_of_the_origin_do_not_matter) {
+  const double here = energy_of_block({}, 1, 1);
+  ASSERT_GT(here, 0);
+  const double away = 1e3 * 8 * radius; // a thousand times the block
+  const auto differs = [&](const Vector3 &shift, double length, double mass) {
+    return std::abs(energy_of_block(shift, length, mass) / here - 1);
+  };
+  expect_below(9, "energy_in_mm_t_s", differs({}, 1e3, 1e-3), 1e-9);
+  expect_below(9, "energy_a_thousand_sizes_away", differs({away, -away, away}, 1, 1), 1e-6);
 }
 
 } // namespace

@@ -1,10 +1,14 @@
-// Specimens that are cut and crushed by hand, for the measures of how they have failed.
+// Specimens that are cut and crushed by hand, and their motions after the peak, for the measures of how they
+// have failed.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <vector>
 
 #include "dem/bonds.h"
+#include "dem/measure/dead_zone.h"
+#include "dem/measure/failure_pattern.h"
 #include "dem/packing/specimen.h"
 #include "dem/particles.h"
 #include "tests/dem/examples.h"
@@ -25,5 +29,36 @@ struct Cylinder {
   void cut_rows(const std::function<int(std::size_t row)> &label);
   double height() const { return shape.height; }
 };
+
+// A displacement by place. Places in `radius`, displacements in units of about what the skin opens by; the
+// bottom platen stands, the top one comes down by `closing`.
+using Field = std::function<Vector3(const Vector3 &)>;
+constexpr double closing = 0.3;
+const Vector3 of_bottom{}, of_top{0, 0, -closing}, half_way{0, 0, -0.5 * closing};
+
+inline Vector3 outwards(const Vector3 &x) {
+  const double r = std::hypot(x.x, x.y);
+  return r > 0 ? Vector3{x.x / r, x.y / r, 0} : Vector3{};
+}
+
+inline MotionAfterPeak motion_of(const Specimen &specimen, const Field &field, const Vector3 &top = of_top) {
+  constexpr double opening = 0.1 * radius; // m
+  MotionAfterPeak m;
+  for (const Vector3 &x : specimen.centre)
+    m.displacement.push_back(opening * field(x / radius));
+  m.platens[top_end].displacement = opening * top;
+  return m;
+}
+
+// Two planes that cross in the middle at this angle to the axis (rad), `thick` wide: the parts below and
+// above go with the platens, what is beside them gives way along x.
+inline Field crossing_planes(double angle, double thick) {
+  return [=](const Vector3 &x) {
+    const double z = x.z - Cylinder::length / 2,
+                 beside = std::abs(x.x) * std::cos(angle) - std::abs(z) * std::sin(angle);
+    if (beside <= -thick / 2) return z < 0 ? of_bottom : of_top;
+    return Vector3{x.x < 0 ? -1. : 1., 0, 0} + half_way;
+  };
+}
 
 } // namespace platen::dem::examples

@@ -75,7 +75,7 @@ TEST(confinement, a_uniform_pressure_has_neither_force_nor_moment) {
       const Confinement c = body.confinement(kind);
       Vector3 moment;
       for (std::size_t k = 0; k < c.size(); ++k)
-        moment += cross(body.particles.position[static_cast<std::size_t>(c.particle(k))], c.area(k));
+        moment += cross(body.particles.position[c.particle(k)], c.area(k));
       // Round-off of some hundred terms.
       EXPECT_LT(norm(sum_of_areas(c)), 1e-13 * total_area(c));
       EXPECT_LT(norm(moment), 1e-13 * total_area(c) * s.shape.height);
@@ -94,7 +94,7 @@ TEST(confinement, voronoi_areas_are_those_of_the_shape) {
   const Confinement c = round.confinement();
   double radial = 0, halves[2] = {0, 0}, upper = 0;
   for (std::size_t k = 0; k < c.size(); ++k) {
-    const Vector3 x = round.particles.position[static_cast<std::size_t>(c.particle(k))], a = c.area(k);
+    const Vector3 x = round.particles.position[c.particle(k)], a = c.area(k);
     const double outward = (a.x * x.x + a.y * x.y) / std::hypot(x.x, x.y);
     radial += outward;
     halves[x.x > 0] += a.x;
@@ -116,7 +116,7 @@ TEST(confinement, voronoi_areas_are_those_of_the_shape) {
   const Confinement b = square.confinement();
   double face_x = 0, face_y = 0;
   for (std::size_t k = 0; k < b.size(); ++k) {
-    const Vector3 x = square.particles.position[static_cast<std::size_t>(b.particle(k))];
+    const Vector3 x = square.particles.position[b.particle(k)];
     if (x.x > 0) face_x += b.area(k).x;
     if (x.y > 0) face_y += b.area(k).y;
   }
@@ -155,7 +155,7 @@ TEST(confinement, the_skin_is_at_the_surface) {
   std::set<int> skin;
   for (std::size_t k = 0; k < c.size(); ++k) {
     skin.insert(c.particle(k));
-    const Vector3 x = body.particles.position[static_cast<std::size_t>(c.particle(k))];
+    const Vector3 x = body.particles.position[c.particle(k)];
     EXPECT_GT(std::hypot(x.x, x.y), 10e-3 - 4e-3) << "a pore inside is taken for the outside";
   }
   for (std::size_t i = 0; i < body.particles.size(); ++i) {
@@ -192,16 +192,15 @@ TEST(confinement, what_has_come_loose_carries_nothing_and_bares_what_lies_beneat
                 [&](std::size_t k) { return body.bonds.first[k] == loose || body.bonds.second[k] == loose; }),
             0u);
   press(c, body, 1e6, 0, 0, false);
-  EXPECT_GT(norm(body.particles.force[static_cast<std::size_t>(loose)]), 0)
-      << "areas have not been updated yet";
+  EXPECT_GT(norm(body.particles.force[loose]), 0) << "areas have not been updated yet";
   for (Vector3 &f : body.particles.force)
     f = {};
   press(c, body, 1e6, 0, 0, true);
-  EXPECT_EQ(norm(body.particles.force[static_cast<std::size_t>(loose)]), 0);
+  EXPECT_EQ(norm(body.particles.force[loose]), 0);
   EXPECT_NEAR(c.coverage(body.particles, body.planes()), before, 0.01); // its share has gone to others
   // Ejected, far away, it changes nothing more.
   const std::size_t size = c.size();
-  body.particles.position[static_cast<std::size_t>(loose)] += {0.1, 0, 0};
+  body.particles.position[loose] += {0.1, 0, 0};
   press(c, body, 1e6, 0, 1e-3, true);
   EXPECT_EQ(c.size(), size);
 }
@@ -228,8 +227,7 @@ TEST(confinement, what_crumbles_takes_its_share_of_the_pressure_along) {
       Confinement c = body.confinement(kind);
       EXPECT_EQ(c.loaded_share(), 1);
       const double start = c.coverage(body.particles, body.planes());
-      crumble(body,
-              [&](int i) { return body.particles.position[static_cast<std::size_t>(i)].z > sound * 25e-3; });
+      crumble(body, [&](int i) { return body.particles.position[i].z > sound * 25e-3; });
       press(c, body, 3e6, 0, 0, true);
       // Where the sound part ends it has a face of its own, whose spheres bear on the mantle too.
       EXPECT_NEAR(c.loaded_share(), sound, sound == 0.6 ? 0.05 : 0) << start;
@@ -271,8 +269,8 @@ TEST(confinement, a_piece_is_pressed_from_a_twentieth_of_the_spheres_on) {
   for (const double share : {0.035, 0.07}) {
     Body body(packed_cylinder());
     Confinement c = body.confinement();
-    const Vector3 at = body.particles.position[static_cast<std::size_t>(c.particle(c.size() / 2))];
-    const auto far = [&](int i) { return norm(body.particles.position[static_cast<std::size_t>(i)] - at); };
+    const Vector3 at = body.particles.position[c.particle(c.size() / 2)];
+    const auto far = [&](int i) { return norm(body.particles.position[i] - at); };
     std::vector<int> by_distance(body.particles.size());
     std::iota(by_distance.begin(), by_distance.end(), 0);
     std::sort(by_distance.begin(), by_distance.end(), [&](int a, int b) { return far(a) < far(b); });
@@ -304,9 +302,7 @@ TEST(confinement, two_large_pieces_are_both_pressed_and_pushed_nowhere) {
     for (const double opening : {0.0, 0.3e-3, 12e-3}) { // m; sphere radius 1 mm
       Body body(s);
       Confinement c = body.confinement();
-      const auto right = [&](int i) {
-        return body.particles.reference_position[static_cast<std::size_t>(i)].x > 0;
-      };
+      const auto right = [&](int i) { return body.particles.reference_position[i].x > 0; };
       break_rows_where(body.bonds, body.particles, [&](std::size_t k) {
         return right(body.bonds.first[k]) != right(body.bonds.second[k]);
       });

@@ -29,14 +29,9 @@ std::set<std::pair<int, int>> touching_by_all_pairs(const Particles &p) {
 // A gas of unbonded spheres of all speeds, from slow to several radii in the run.
 TEST(contact_search, a_gas_misses_no_collision) {
   Random random(1);
-  std::vector<Vector3> centres;
-  for (int x = 0; x < 7; ++x)
-    for (int y = 0; y < 7; ++y)
-      for (int z = 0; z < 7; ++z)
-        centres.push_back(2.05 * radius * Vector3{1.0 * x, 1.0 * y, 1.0 * z});
   ModelSettings settings = breakable();
   settings.bond.reset();
-  Model model(spheres(centres), settings);
+  Model model(cubic(7, 7, 7, 2.05), settings);
   Particles &p = model.particles;
   for (std::size_t i = 0; i < p.size(); ++i)
     p.velocity[i] = std::pow(10, random.uniform(-.5, 1.5)) * random.direction();

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "dem/measure/cone.h"
-#include "tests/dem/motions.h"
+#include "tests/dem/broken_specimens.h"
 
 namespace platen::dem {
 namespace {
@@ -65,6 +65,10 @@ void expect_cone(const DeadZone &found, const Wanted &wanted, End end, const std
   EXPECT_GT(found.height / radius, .8 * wanted.depth) << which;
   EXPECT_LT(found.height / radius, wanted.depth + 1) << which;
   EXPECT_GT(found.confidence, .8) << which;
+  if (wanted.base() < 1 && wanted.tilt == 0) { // the whole of it fits on the platen
+    EXPECT_NEAR(found.volume_fraction / (wanted.base() * wanted.base() * wanted.depth / (3 * h)), 1, .1)
+        << which;
+  }
 }
 
 // As a cone is made it stands upright: what is below its apex is within.
@@ -88,15 +92,6 @@ TEST(dead_zone, half_angle_and_base_of_a_cone_are_found) {
     expect_cone(zones.at_end[bottom_end], bottom, bottom_end, which + "bottom ");
     expect_cone(zones.at_end[top_end], top, top_end, which + "top ");
     EXPECT_NEAR(zones.opening, .1 * radius, .01 * radius);
-  }
-}
-
-// Volume of a cone whose base fits on the platen, over that of the specimen.
-TEST(dead_zone, its_share_of_the_volume_is_that_of_the_cone) {
-  for (const Wanted w : {Wanted{30, 34}, Wanted{25, 42}}) {
-    const double share = w.base() * w.base() * w.depth / (3 * h);
-    for (const DeadZone &zone : zones_of(cones(w, w)).at_end)
-      EXPECT_NEAR(zone.volume_fraction / share, 1, .1);
   }
 }
 
@@ -157,86 +152,6 @@ TEST(dead_zone, what_slides_or_sinks_beside_its_platen_is_not_dead) {
     }
 }
 
-struct Shapeless {
-  std::string what;
-  Field field;
-  std::vector<DeadZoneVerdict> bottom, top; // any of them
-  Vector3 platen = of_top;
-};
-
-std::vector<Shapeless> shapeless() {
-  using V = DeadZoneVerdict;
-  std::vector<Shapeless> all;
-  for (const double angle : {20., 25., 30., 35.})
-    for (const double thick : {0., 4., 8.})
-      all.push_back({"crossing planes " + std::to_string(angle),
-                     crossing_planes(angle * degree, thick),
-                     {V::wedge},
-                     {V::wedge}});
-  for (const double angle : {15., 25., 35., 45.})
-    all.push_back({"inclined band " + std::to_string(angle),
-                   [=](const Vector3 &x) {
-                     const bool above =
-                         (x.z - h / 2) * std::sin(angle * degree) > x.x * std::cos(angle * degree);
-                     const double thick =
-                         std::abs((x.z - h / 2) * std::sin(angle * degree) - x.x * std::cos(angle * degree));
-                     return thick < 3 ? Vector3{1, 0, 0} + outwards(x) : above ? of_top : of_bottom;
-                   },
-                   {V::large, V::leans, V::wedge, V::does_not_narrow},
-                   {V::large, V::leans, V::wedge, V::does_not_narrow}});
-  all.push_back({"quarters",
-                 [](const Vector3 &x) {
-                   return 4 * x.z / h * (1 - x.z / h) * Vector3{x.x < 0 ? -1. : 1., x.y < 0 ? -1. : 1., 0} +
-                          x.z / h * of_top;
-                 },
-                 {V::low},
-                 {V::low}});
-  all.push_back({"columns that lean outwards",
-                 [](const Vector3 &x) {
-                   return Vector3{x.x < 0 ? -1. : 1., 0, 0} + x.z / h * of_top;
-                 },
-                 {V::nothing, V::small_base},
-                 {V::nothing, V::small_base}});
-  all.push_back({"a core between shells",
-                 [](const Vector3 &x) {
-                   return (std::hypot(x.x, x.y) > .7 * rc ? outwards(x) : Vector3{}) + x.z / h * of_top;
-                 },
-                 {V::does_not_narrow},
-                 {V::does_not_narrow}});
-  all.push_back({"spread evenly",
-                 [](const Vector3 &x) { return std::hypot(x.x, x.y) / rc * outwards(x) + x.z / h * of_top; },
-                 {V::small_base},
-                 {V::small_base}});
-  all.push_back({"one end with half of the specimen",
-                 [](const Vector3 &x) { return x.z < h / 2 ? of_bottom : outwards(x) + half_way; },
-                 {V::large},
-                 {V::nothing}});
-  all.push_back({"a slab",
-                 [](const Vector3 &x) { return x.z < h / 4 ? of_bottom : outwards(x) + half_way; },
-                 {V::blunt},
-                 {V::nothing}});
-  all.push_back({"a skin",
-                 [](const Vector3 &x) { return x.z < 5 ? of_bottom : outwards(x) + half_way; },
-                 {V::low},
-                 {V::nothing}});
-  return all;
-}
-
-TEST(dead_zone, no_cone_is_invented) {
-  for (const Shapeless &s : shapeless()) {
-    const DeadZones zones = zones_of(s.field, s.platen);
-    for (const End end : {bottom_end, top_end}) {
-      const DeadZone &zone = zones.at_end[end];
-      const auto &allowed = end == bottom_end ? s.bottom : s.top;
-      EXPECT_NE(std::find(allowed.begin(), allowed.end(), zone.verdict), allowed.end())
-          << s.what << " " << end << ": " << words_of(zone.verdict) << ", r0 " << zone.base_ratio
-          << ", volume " << zone.volume_fraction << ", half-angle " << zone.half_angle / degree
-          << ", roundness " << zone.roundness << ", straightness " << zone.straightness << ", overlap "
-          << zone.overlap;
-    }
-  }
-}
-
 // Half ellipsoids are told as domes however low. Paraboloids, which lie half-way, have not the confidence of
 // a cone that was cut (above .8).
 TEST(dead_zone, a_dome_is_told_from_a_cone) {
@@ -285,29 +200,6 @@ TEST(dead_zone, a_specimen_that_barrels_without_breaking_has_no_cones) {
   EXPECT_EQ(verdicts(.3, 2).dead[top_end].verdict, DeadZoneVerdict::unbroken);
   break_share(.1);
   EXPECT_TRUE(verdicts(.3, 2).dead[top_end].is_cone());
-}
-
-// A specimen upside down has its zones exchanged.
-TEST(dead_zone, a_specimen_upside_down_has_the_same_cones) {
-  const Wanted bottom{32, 34}, top{26, 40};
-  const DeadZones upright = zones_of(cones(bottom, top));
-  Specimen turned = specimen();
-  MotionAfterPeak m = motion_of(turned, cones(bottom, top));
-  for (Vector3 &x : turned.centre)
-    x = {x.x, -x.y, h * radius - x.z};
-  for (Vector3 &u : m.displacement)
-    u = {u.x, -u.y, -u.z};
-  for (PlatenMotion &platen : m.platens)
-    platen.displacement.z *= -1;
-  std::swap(m.platens[bottom_end], m.platens[top_end]);
-  const DeadZones found = find_dead_zones(turned, m);
-  for (const auto &[one, other] : {std::pair{bottom_end, top_end}, std::pair{top_end, bottom_end}}) {
-    const DeadZone &before = upright.at_end[one], &after = found.at_end[other];
-    EXPECT_NEAR(after.half_angle, before.half_angle, .01);
-    EXPECT_NEAR(after.apex.z, h * radius - before.apex.z, .3 * radius);
-    EXPECT_NEAR(after.axis.z, -before.axis.z, 1e-3);
-    EXPECT_EQ(found.members[other], upright.members[one]);
-  }
 }
 
 // Of a box the radius is that of a circle as large as its section.

@@ -18,6 +18,24 @@ Specimen spheres(std::vector<Vector3> centres, double r) {
   return s;
 }
 
+Specimen pair_of(double first, double second, double gap) {
+  Specimen s = spheres({{0, 0, 0}, {(first + second) * (1 + gap), 0, 0}});
+  s.radius = {first, second};
+  return s;
+}
+
+Specimen cubic(int along_x, int along_y, int along_z, double distance) {
+  std::vector<Vector3> centres;
+  for (int z = 0; z < along_z; ++z)
+    for (int y = 0; y < along_y; ++y)
+      for (int x = 0; x < along_x; ++x)
+        centres.push_back(.5 * distance * radius *
+                          Vector3{2. * x + 1 - along_x, 2. * y + 1 - along_y, 2. * z + 1});
+  Specimen s = spheres(std::move(centres));
+  s.shape = scaled(box(along_x, along_y, along_z), distance * radius);
+  return s;
+}
+
 Specimen row(int bonds, const Vector3 &direction) {
   const Vector3 unit = direction / norm(direction);
   std::vector<Vector3> centres;
@@ -57,17 +75,19 @@ ParallelBond::Parameters &parallel_bond(ModelSettings &settings) {
   return std::get<ParallelBond::Parameters>(settings.bond.value());
 }
 
+ElastoDamagePlastic::Parameters cohesive_bond_of_concrete() {
+  ElastoDamagePlastic::Parameters p;
+  p.poisson_ratio = .2;
+  p.tensile_strength = 5e6, p.shear_strength = 16e6;
+  p.friction_static = .9, p.friction_dynamic = .25;
+  p.softening_tension = .2, p.softening_shear = 1;
+  p.compression_limits = {20e6, 45e6, 70e6}, p.compression_slopes = {3, 12, 22};
+  return p;
+}
+
 ModelSettings interfaces() {
   ModelSettings s = bonded();
-  ElastoDamagePlastic::Parameters law;
-  law.tensile_strength = 5e6;
-  law.shear_strength = 16e6;
-  law.friction_static = .9;
-  law.friction_dynamic = .25;
-  law.poisson_ratio = .2;
-  law.compression_limits = {20e6, 45e6, 70e6};
-  law.compression_slopes = {3, 12, 22};
-  s.bond = law;
+  s.bond = cohesive_bond_of_concrete();
   s.bond_layout.modulus = 28e9;
   s.bond_layout.by_range = true;
   s.contact = ContactSettings{};
@@ -116,6 +136,89 @@ ModelSettings breakable() {
   s.contact = ContactSettings{};
   s.contact->damping = 0;
   return s;
+}
+
+ModelSettings unbonded(NormalContact normal, TangentialContact tangential, double stiffness) {
+  ModelSettings s;
+  s.density = 2400;
+  s.local_damping = 0;
+  s.contact = ContactSettings{};
+  s.contact->normal = normal;
+  s.contact->tangential = tangential;
+  s.contact->stiffness = {Stiffness::Kind::absolute, stiffness};
+  s.contact->friction = s.contact->damping = 0;
+  s.contact->young_modulus = 70e9;
+  s.contact->poisson_ratio = .25;
+  return s;
+}
+
+ModelSettings bending_interfaces() {
+  ModelSettings s = interfaces();
+  auto &law = std::get<ElastoDamagePlastic::Parameters>(*s.bond);
+  law.moments = true, law.moment_contribution = .3;
+  return s;
+}
+
+void PrintTo(const SetUp &set_up, std::ostream *to) {
+  *to << set_up.name;
+}
+
+const std::vector<SetUp> &set_ups() {
+  static const std::vector<SetUp> all = [] {
+    ModelSettings effects = breakable(), plain = breakable(), rolling = breakable(), alone = breakable(),
+                  grains = breakable(), still = breakable(), beams = bonded_by_beams(30e9, .2, 1);
+    effects.contact->damping = .2;
+    effects.local_damping = .1;
+    effects.bond_dashpot = .05;
+    effects.gravity = {0, 0, -9.81};
+    effects.scheme = Scheme::tchamwa_wielgosz;
+    effects.dissipation = 1.1;
+    effects.strength_scatter = StrengthScatter{4, 2};
+    plain.contact->damping = .2;
+    rolling.contact->normal = NormalContact::hertz;
+    rolling.contact->tangential = TangentialContact::coulomb_with_rolling;
+    rolling.contact->rolling_friction = .2;
+    alone.contact.reset();
+    grains.bond.reset();
+    still.rotation = false;
+    still.contact->tangential = TangentialContact::none;
+    std::get<CohesiveBeam::Parameters>(*beams.bond).tensile_strength = 20e6;
+    beams.contact = ContactSettings{};
+    std::vector<SetUp> list{
+        {"all_effects", effects}, {"parallel_bonds", plain}, {"hertz_and_rolling", rolling},
+        {"bonds_alone", alone},   {"grains", grains},        {"without_rotation", still},
+        {"beams", beams}};
+    for (const auto &[name, settings] : {std::pair{"interfaces", interfaces()},
+                                         {"bending_interfaces", bending_interfaces()},
+                                         {"yielding_parallel_bonds", yielding_bonds()},
+                                         {"facets", facets()}}) {
+      list.push_back({name, settings});
+      list.back().settings.bond_dashpot = .1;
+    }
+    return list;
+  }();
+  return all;
+}
+
+std::unique_ptr<Model> flying_block(const ModelSettings &settings, double side) {
+  auto model = std::make_unique<Model>(packed_box(side, side, side), settings);
+  Particles &p = model->particles;
+  Random random(9);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p.velocity[i] = .1 * (p.position[i] / radius) + 2 * random.direction();
+    if (p.has_rotation()) (*p.angular_velocity)[i] = (.1 / radius) * random.direction();
+  }
+  if (model->contacts) model->contacts->search(p, model->bonds.get(), 0);
+  return model;
+}
+
+void move_pair(Model &model, const Vector3 &by, const Vector3 &turn_first, const Vector3 &turn_second) {
+  Particles &p = model.particles;
+  p.velocity[0] = {}, p.velocity[1] = by;
+  (*p.angular_velocity)[0] = turn_first, (*p.angular_velocity)[1] = turn_second;
+  p.force[0] = p.force[1] = (*p.torque)[0] = (*p.torque)[1] = {};
+  model.begin_step(1);
+  model.compute_forces(1);
 }
 
 std::size_t row_of(const Particles &particles, int id) {

@@ -1,9 +1,13 @@
 // Small models that the tests of the particle library share. SI units.
 #pragma once
 
+#include <memory>
+#include <ostream>
+#include <string>
 #include <vector>
 
 #include "base/pi.h"
+#include "dem/measure/damage.h"
 #include "dem/model.h"
 #include "dem/packing/specimen.h"
 #include "tests/instruction_sets.h"
@@ -23,6 +27,10 @@ constexpr double normal_stiffness = modulus / (2 * radius);            // k_n, P
 constexpr double shear_stiffness = stiffness_ratio * normal_stiffness; // k_s, Pa/m
 
 Specimen spheres(std::vector<Vector3> centres, double r = radius);
+// Two along x whose gap is this share of their distance.
+Specimen pair_of(double first = radius, double second = radius, double gap = 1e-9);
+// A simple cubic lattice, of this distance in radii, as a box holds it that stands on z = 0.
+Specimen cubic(int along_x, int along_y, int along_z, double distance = 2);
 // n + 1 touching spheres in a row along `direction`, the first at the origin.
 Specimen row(int bonds, const Vector3 &direction);
 // Advancing-front packing of a box of these widths over the sphere radius; Z just below 6.
@@ -33,8 +41,9 @@ Specimen packed_box(double x, double y, double z, std::uint64_t seed = 1);
 ModelSettings bonded();
 // The same with beams of modulus E (Pa), Poisson ratio and radius over the mean of the spheres'.
 ModelSettings bonded_by_beams(double young, double poisson, double slender);
-// Concrete of Onate et al. 2015 (table 5): interfaces over an interaction range of .1, contacts with the
-// friction of failed ones.
+// Concrete of Onate et al. 2015 (table 5): its interfaces, and those over an interaction range of .1, with
+// contacts that have the friction of failed ones.
+ElastoDamagePlastic::Parameters cohesive_bond_of_concrete();
 ModelSettings interfaces();
 // Yielding parallel bonds, of so low a strength in shear that some slide apart, and contacts.
 ModelSettings yielding_bonds();
@@ -42,8 +51,23 @@ ModelSettings facets();
 // Parallel bonds with the strengths above, and contacts of the bond's stiffness with friction .5 and without
 // dashpot.
 ModelSettings breakable();
+// Grains of quartz without bonds, whose contacts have this stiffness (N/m; Hertz' their own), neither
+// friction nor dashpot.
+ModelSettings unbonded(NormalContact normal, TangentialContact tangential, double stiffness);
 // Parameters of settings whose bonds are parallel ones.
 ParallelBond::Parameters &parallel_bond(ModelSettings &settings);
+// Interfaces that bend and twist.
+ModelSettings bending_interfaces();
+
+// Whatever a model may consist of: what is claimed of every model is claimed of each of these.
+struct SetUp {
+  std::string name;
+  ModelSettings settings;
+};
+void PrintTo(const SetUp &set_up, std::ostream *to);
+const std::vector<SetUp> &set_ups();
+// A free block that flies apart, `side` radii wide, and cracks.
+std::unique_ptr<Model> flying_block(const ModelSettings &settings, double side);
 
 // One whole step. `load` is called where surfaces would act: between forces and second half kick.
 template <class Load>
@@ -57,6 +81,11 @@ inline void step(Model &model, double dt, int times = 1) {
   for (int k = 0; k < times; ++k)
     step(model, dt, [](Particles &) {});
 }
+
+// Moves both of a pair by hand within a second, from rest and without a kick: the second by `by`, both
+// turned.
+void move_pair(Model &model, const Vector3 &by, const Vector3 &turn_first = {},
+               const Vector3 &turn_second = {});
 
 // Row of the particle that was `id` in the specimen.
 std::size_t row_of(const Particles &particles, int id);
@@ -100,6 +129,14 @@ std::size_t break_rows_where(Bonds &bonds, Particles &particles, const Where &wh
     if (where(k)) breaks.push_back({static_cast<int>(k), BondState::broken_in_tension});
   bonds.break_rows(breaks, particles, time);
   return breaks.size();
+}
+
+// The same by where the middle of a bond was at first.
+template <class Where>
+std::size_t break_where(Bonds &bonds, Particles &particles, const Where &where, double time = 0) {
+  return break_rows_where(
+      bonds, particles,
+      [&](std::size_t k) { return where(reference_midpoint(particles, bonds, bonds.record[k])); }, time);
 }
 
 } // namespace platen::dem::examples

@@ -1,13 +1,16 @@
-// One word for how a specimen has failed.
+// One word for how a specimen has failed, and planes and directions of its broken bonds.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+#include <random>
 #include <tuple>
 
 #include "dem/measure/cone.h"
+#include "dem/measure/cracks.h"
 #include "dem/measure/failure_pattern.h"
-#include "tests/dem/motions.h"
+#include "tests/dem/broken_specimens.h"
+#include "tests/dem/examples.h"
 #include "tests/same_state.h"
 
 namespace platen::dem {
@@ -16,6 +19,14 @@ namespace {
 using namespace examples;
 
 constexpr double h = Cylinder::length, degree = pi / 180; // lengths in `radius`
+
+// Which side of a plane through the middle, at an angle (degrees) to the axis; `unit` of places, m.
+auto sides(double angle, double unit = radius) {
+  return [=](const Vector3 &x) {
+    const double z = x.z - h / 2 * unit;
+    return z * std::sin(angle * degree) > x.x * std::cos(angle * degree) ? 1 : 2;
+  };
+}
 
 struct Case {
   const char *what;
@@ -27,10 +38,9 @@ struct Case {
 
 TEST(failure_pattern, is_told_from_how_a_specimen_was_cut) {
   const Cone cone{{0, 0, 34}, {0, 0, -1}, 30 * degree};
-  const auto plane = [](double angle) {
-    return [=](const Vector3 &x) {
-      return (x.z - h / 2) * std::sin(angle * degree) > x.x * std::cos(angle * degree) ? 1 : 2;
-    };
+  const auto between_cones = [&](const Vector3 &x) {
+    const Vector3 mirrored{x.x, x.y, h - x.z};
+    return cone.distance(x) < 0 || cone.distance(mirrored) < 0 ? 1 : Cylinder::crumbs;
   };
   const Field two_cones = [&](const Vector3 &x) {
     if (cone.distance(x) < 0) return of_bottom;
@@ -38,23 +48,13 @@ TEST(failure_pattern, is_told_from_how_a_specimen_was_cut) {
   };
   const std::vector<Case> cases{
       {"intact", [](const Vector3 &) { return 1; }, FailurePattern::none, DecidedBy::few_broken},
-      {"cones",
-       [&](const Vector3 &x) {
-         const Vector3 mirrored{x.x, x.y, h - x.z};
-         return cone.distance(x) < 0 || cone.distance(mirrored) < 0 ? 1 : Cylinder::crumbs;
-       },
-       FailurePattern::cones, DecidedBy::two_cones, two_cones},
-      {"cones that nobody saw move",
-       [&](const Vector3 &x) {
-         const Vector3 mirrored{x.x, x.y, h - x.z};
-         return cone.distance(x) < 0 || cone.distance(mirrored) < 0 ? 1 : Cylinder::crumbs;
-       },
-       FailurePattern::undecided, DecidedBy::nothing},
+      {"cones", between_cones, FailurePattern::cones, DecidedBy::two_cones, two_cones},
+      {"cones that nobody saw move", between_cones, FailurePattern::undecided, DecidedBy::nothing},
       // Parts of it move with the platens, and the plane is looked at first.
-      {"shear plane that moves as cones do", plane(30), FailurePattern::shear_plane, DecidedBy::one_plane,
+      {"shear plane that moves as cones do", sides(30, 1), FailurePattern::shear_plane, DecidedBy::one_plane,
        two_cones},
-      {"shear plane", plane(30), FailurePattern::shear_plane, DecidedBy::one_plane},
-      {"split in two", plane(0), FailurePattern::splitting, DecidedBy::one_plane},
+      {"shear plane", sides(30, 1), FailurePattern::shear_plane, DecidedBy::one_plane},
+      {"split in two", sides(0, 1), FailurePattern::splitting, DecidedBy::one_plane},
       {"split in four", [](const Vector3 &x) { return 2 * (x.x > 0) + (x.y > 0); }, FailurePattern::splitting,
        DecidedBy::columns},
       {"one end crushed", [](const Vector3 &x) { return x.z < 16 ? Cylinder::crumbs : 1; },
@@ -76,21 +76,6 @@ TEST(failure_pattern, is_told_from_how_a_specimen_was_cut) {
     EXPECT_STREQ(word_of(verdict.pattern), word_of(one.pattern)) << one.what;
     EXPECT_EQ(static_cast<int>(verdict.by), static_cast<int>(one.by)) << one.what;
   }
-}
-
-// Ends sound, the middle gone: by damage these were cones.
-TEST(failure_pattern, two_planes_that_cross_are_no_cones) {
-  for (const double angle : {25 * degree, 35 * degree})
-    for (const double thick : {4., 8.}) {
-      Cylinder c;
-      c.cut([&](const Vector3 &x) { return part_of_cross(x / radius, angle, thick); });
-      const FailureMeasures m =
-          measure_failure(c.particles, c.bonds, c.shape, {},
-                          motion_of(specimen_before(c.particles, c.shape), crossing_planes(angle, thick)));
-      EXPECT_STRNE(word_of(judge_failure(m).pattern), "cones") << angle / degree << " " << thick;
-      for (const DeadZone &zone : m.dead)
-        EXPECT_STREQ(words_of(zone.verdict), words_of(DeadZoneVerdict::wedge));
-    }
 }
 
 double &damage(FacetBond::State<double> &s) {
@@ -141,9 +126,7 @@ TEST(failure_pattern, ends_and_middle_of_facets_are_judged_by_their_damage) {
 TEST(failure_pattern, a_plane_of_facets_is_compared_with_all_that_is_lost) {
   for (const double angle : {0., 30.}) {
     Cylinder c(*facets().bond);
-    c.cut([=](const Vector3 &x) {
-      return (x.z - h / 2 * radius) * std::sin(angle * degree) > x.x * std::cos(angle * degree) ? 1 : 2;
-    });
+    c.cut(sides(angle));
     const double broken = static_cast<double>(c.bonds.initial_count() - c.bonds.size());
     for (const double share : {.9, 1.1}) { // lost elsewhere, over what is broken in the plane
       const double damage = share * broken / static_cast<double>(c.bonds.size());
@@ -260,6 +243,86 @@ TEST(failure_pattern, states_with_cones_by_damage_are_read) {
   set_state(read, state);
   EXPECT_TRUE(same_state(old.measures, read));
   EXPECT_THROW(set_state(read, without(state, "cone_top")), StateError);
+}
+
+TEST(crack_planes, a_cut_through_the_specimen_is_one_plane_at_its_angle) {
+  for (const double angle : {0., 30., 45., 90.}) {
+    Cylinder c;
+    c.cut(sides(angle));
+    const auto planes = find_crack_planes(c.particles, c.bonds);
+    const CrackPlanes sum = sum_up(planes, c.bonds);
+    ASSERT_EQ(planes.size(), 1u) << angle;
+    EXPECT_NEAR(planes[0].inclination / degree, angle, 1) << angle;
+    EXPECT_NEAR(std::abs(planes[0].normal.x), std::cos(angle * degree), .02) << angle;
+    EXPECT_GT(planes[0].flatness, .9) << angle;
+    EXPECT_GT(sum.share, .98) << angle;
+    EXPECT_EQ(sum.steep_share > .9, angle < 15) << angle;
+    EXPECT_NEAR(norm(planes[0].centre - Vector3{0, 0, c.height() / 2}), 0, 2 * radius) << angle;
+    // An ellipse with half-axes a and b has scatters a/2 and b/2.
+    const double longer = std::max(1.0, 1 / std::max(.3, std::sin(angle * degree)));
+    if (angle > 0)
+      EXPECT_NEAR(planes[0].extent / radius, std::sqrt(12.) / 2 * Cylinder::width * longer, 6) << angle;
+    else
+      EXPECT_NEAR(planes[0].extent / radius, Cylinder::length, 6);
+  }
+}
+
+TEST(crack_planes, planes_apart_are_counted_one_by_one) {
+  Cylinder c;
+  c.cut([&](const Vector3 &x) { return static_cast<int>(std::floor(x.z / c.height() * 4)); });
+  const auto planes = find_crack_planes(c.particles, c.bonds);
+  ASSERT_EQ(planes.size(), 3u);
+  for (const CrackPlane &plane : planes)
+    EXPECT_NEAR(plane.inclination, pi / 2, degree);
+  EXPECT_GE(planes[0].bonds, planes[1].bonds);
+  EXPECT_NEAR(sum_up(planes, c.bonds).mean_inclination, pi / 2, degree);
+}
+
+// In a specimen with a fifth of its bonds broken at random, a sheet in which all are broken is still found.
+TEST(crack_planes, a_sheet_is_found_in_diffuse_damage) {
+  Cylinder c;
+  std::mt19937 random(2);
+  break_where(c.bonds, c.particles,
+              [&](const Vector3 &m) { return random() % 5 == 0 || std::abs(m.x) < 2 * radius; });
+  const auto planes = find_crack_planes(c.particles, c.bonds);
+  ASSERT_GE(planes.size(), 1u);
+  EXPECT_LT(planes[0].inclination, 3 * degree);
+  EXPECT_GT(planes[0].flatness, .7);
+  EXPECT_GT(planes[0].extent, .9 * c.height());
+}
+
+TEST(crack_planes, an_intact_specimen_and_a_crushed_one_have_none) {
+  Cylinder c;
+  EXPECT_TRUE(find_crack_planes(c.particles, c.bonds).empty());
+  EXPECT_TRUE(std::isnan(sum_up({}, c.bonds).share));
+  c.cut([](const Vector3 &) { return Cylinder::crumbs; });
+  EXPECT_TRUE(find_crack_planes(c.particles, c.bonds).empty());
+  EXPECT_EQ(sum_up({}, c.bonds).share, 0);
+}
+
+TEST(crack_rose, cracks_that_face_all_directions_alike_give_one_everywhere) {
+  CrackRose rose;
+  const int n = 200000; // points of a spiral, even on the sphere
+  for (int k = 0; k < n; ++k) {
+    const double z = 1 - (2 * k + 1.0) / n;
+    rose.add({std::sqrt(1 - z * z), 0, z}, 1e-6);
+  }
+  for (const double share : rose.over_isotropic())
+    EXPECT_NEAR(share, 1, 1e-3);
+}
+
+TEST(crack_rose, counts_area_by_the_angle_to_the_axis_in_either_sense) {
+  CrackRose rose;
+  rose.add({0, 0, -1}, 3e-6); // across the specimen
+  rose.add({1, 0, 0}, 1e-6);  // along it
+  rose.add({std::sin(45 * degree), 0, -std::cos(45 * degree)}, 2e-6);
+  EXPECT_EQ(rose.area[0], 3e-6);
+  EXPECT_EQ(rose.area[4], 2e-6);
+  EXPECT_EQ(rose.area[8], 1e-6);
+  const auto share = rose.over_isotropic();
+  EXPECT_NEAR(share[0], .5 / (1 - std::cos(10 * degree)), 1e-9);
+  EXPECT_NEAR(share[8], 1. / 6 / std::cos(80 * degree), 1e-9);
+  EXPECT_TRUE(std::isnan(CrackRose{}.over_isotropic()[0]));
 }
 
 } // namespace

@@ -15,46 +15,40 @@ using namespace examples;
 constexpr double stiffness = 1e6; // N/m
 constexpr double far = 1;         // m, more than anything has moved by
 
-// Each sphere of a row a tenth of a radius deep in one wall: pushed back along its normal, energy and
+// A sphere that touches a wall, then a tenth of a radius deep in it: pushed back along its normal, energy and
 // pressure of springs.
 TEST(lateral_wall, pushes_inwards_whatever_reaches_it) {
-  const double wide = 20 * radius, broad = 30 * radius, deep = .1 * radius;
-  const auto at = [](double half) { return half - radius; };
+  const double wide = 20 * radius, broad = 30 * radius, deep = .1 * radius, height = 9 * radius;
+  const Shape square = box(wide, broad, 10 * radius), round = cylinder(.5 * wide, 10 * radius);
   struct Case {
-    Vector3 place, inward;
+    Shape shape;
+    Vector3 out, beside; // beside: along the wall, m
   };
-  const Case box_cases[] = {{{at(.5 * wide), 0, 0}, {-1, 0, 0}},
-                            {{-at(.5 * wide), 3 * radius, 0}, {1, 0, 0}},
-                            {{radius, at(.5 * broad), 0}, {0, -1, 0}},
-                            {{0, -at(.5 * broad), 0}, {0, 1, 0}}};
-  for (const Case &c : box_cases) {
-    Model model(spheres({c.place, {0, 0, 0}}), bonded()); // the second touches nothing
+  std::vector<Case> cases{{square, {1, 0, 0}, {}},
+                          {square, {-1, 0, 0}, {0, 3 * radius, 0}},
+                          {square, {0, 1, 0}, {radius, 0, 0}},
+                          {square, {0, -1, 0}, {}}};
+  for (const double angle : {0., 1., 2.5, -2.})
+    cases.push_back({round, {std::cos(angle), std::sin(angle), 0}, {}});
+  for (const Case &c : cases) {
+    SCOPED_TRACE(testing::Message() << c.out.x << ' ' << c.out.y);
+    const double half = .5 * (c.out.x == 0 ? broad : wide);
+    Model model(spheres({(half - radius) * c.out + c.beside, {0, 0, 0}}),
+                bonded()); // the second touches nothing
     Particles &p = model.particles;
     const std::size_t one = row_of(p, 0), other = row_of(p, 1);
-    LateralWall wall(p, box(wide, broad, 10 * radius), stiffness, 0);
+    LateralWall wall(p, c.shape, stiffness, 0);
     wall.add_forces(p, far);
-    EXPECT_EQ(wall.force(), 0) << c.inward.x << c.inward.y;
-    p.position[one] -= deep * c.inward;
+    EXPECT_LT(wall.force(), 1e-9 * stiffness * deep);
+    p.position[one] += deep * c.out;
     p.force[one] = p.force[other] = {};
     wall.add_forces(p, far);
-    EXPECT_LT(norm(p.force[one] - stiffness * deep * c.inward), 1e-9 * stiffness * deep)
-        << c.inward.x << c.inward.y;
+    EXPECT_LT(norm(p.force[one] + stiffness * deep * c.out), 1e-9 * stiffness * deep);
     EXPECT_EQ(norm(p.force[other]), 0);
     EXPECT_NEAR(wall.force(), stiffness * deep, 1e-9 * stiffness * deep);
     EXPECT_NEAR(wall.elastic_energy(), .5 * stiffness * deep * deep, 1e-9 * stiffness * deep * deep);
-    const double height = 9 * radius;
-    EXPECT_NEAR(wall.pressure(height) * 2 * (wide + broad) * height, wall.force(), 1e-9 * wall.force());
-  }
-  for (const double angle : {0., 1., 2.5, -2.}) {
-    const Vector3 out{std::cos(angle), std::sin(angle), 0};
-    Model model(spheres({at(.5 * wide) * out, {0, 0, 0}}), bonded());
-    Particles &p = model.particles;
-    const std::size_t one = row_of(p, 0);
-    LateralWall wall(p, cylinder(.5 * wide, 10 * radius), stiffness, 0);
-    p.position[one] += deep * out;
-    p.force[one] = {};
-    wall.add_forces(p, far);
-    EXPECT_LT(norm(p.force[one] + stiffness * deep * out), 1e-9 * stiffness * deep) << angle;
+    const double around = &c < &cases[4] ? 2 * (wide + broad) : pi * wide;
+    EXPECT_NEAR(wall.pressure(height) * around * height, wall.force(), 1e-9 * wall.force());
   }
 }
 

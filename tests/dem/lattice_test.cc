@@ -40,8 +40,8 @@ struct Lattice {
   }
   // -1, 1 on the low, the high face of that axis; 0 inside.
   int face(std::size_t i, int axis) const {
-    const int at = place[i][static_cast<std::size_t>(axis)];
-    return at == 0 ? -1 : at == halves[static_cast<std::size_t>(axis)] ? 1 : 0;
+    const int at = place[i][axis];
+    return at == 0 ? -1 : at == halves[axis] ? 1 : 0;
   }
 };
 
@@ -74,7 +74,7 @@ protected:
     StaticCase load;
     for (int i = 0; i < static_cast<int>(p.size()); ++i)
       for (int axis = 0; axis < 3; ++axis) {
-        if (!held[static_cast<std::size_t>(axis)] || face(i, axis) == 0) continue;
+        if (!held[axis] || face(i, axis) == 0) continue;
         Support support;
         support.spring.particle = i;
         support.spring.normal[axis] = -face(i, axis);
@@ -96,9 +96,8 @@ protected:
     for (const Support &s : load.supports)
       for (int axis = 0; axis < 3; ++axis) {
         if (s.spring.normal[axis] == 0) continue;
-        const Vector3 &u = state.displacement[static_cast<std::size_t>(s.spring.particle)];
-        const double area = half * half * radius * radius * halves[0] * halves[1] * halves[2] /
-                            halves[static_cast<std::size_t>(axis)];
+        const Vector3 &u = state.displacement[s.spring.particle];
+        const double area = half * half * radius * radius * halves[0] * halves[1] * halves[2] / halves[axis];
         found.stress[axis] +=
             0.5 * s.spring.normal_stiffness * dot(s.moved - u, s.spring.normal) / area; // of two faces
       }
@@ -141,8 +140,8 @@ TEST_F(FaceCentredLattice, under_even_pressure_has_its_bulk_modulus) {
   const double bulk = std::sqrt(2) * stiffness_ / (3 * radius), pressure = 3 * bulk * strain;
   Vector3 closure;
   for (int axis = 0; axis < 3; ++axis) // a sphere's place on a face is half a cell's square
-    closure[axis] = 0.5 * strain * halves[static_cast<std::size_t>(axis)] * half * radius +
-                    pressure * 2 * half * half * radius * radius / spring;
+    closure[axis] =
+        0.5 * strain * halves[axis] * half * radius + pressure * 2 * half * half * radius * radius / spring;
   const Pressed found = press({true, true, true}, closure);
   for (int axis = 0; axis < 3; ++axis) {
     EXPECT_NEAR(found.strain[axis] / strain, 1, 1e-7) << axis;

@@ -2,27 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
 #include "dem/measure/circumference.h"
 #include "dem/measure/cone.h"
-#include "dem/measure/damage.h"
 #include "dem/measure/failure_pattern.h"
 #include "dem/measure/stress.h"
-#include "tests/dem/motions.h"
+#include "tests/dem/broken_specimens.h"
 
 namespace platen::dem {
 namespace {
 
 using namespace examples;
-
-void break_where(Cylinder &c, const std::function<bool(const Vector3 &)> &there) {
-  std::vector<BondBreak> breaks;
-  for (std::size_t k = 0; k < c.bonds.size(); ++k)
-    if (there(reference_midpoint(c.particles, c.bonds, c.bonds.record[k])))
-      breaks.push_back({static_cast<int>(k), BondState::broken_in_tension});
-  c.bonds.break_rows(breaks, c.particles, 0);
-}
 
 // Within half of the radius about the axis; of a box within half of its half-width, as a square.
 TEST(measure_bounds, damage_by_region_does_not_see_the_rim) {
@@ -32,8 +22,8 @@ TEST(measure_bounds, damage_by_region_does_not_see_the_rim) {
     const auto off = [&](const Vector3 &m) {
       return square ? std::max(std::abs(m.x), std::abs(m.y)) : std::hypot(m.x, m.y);
     };
-    break_where(rim, [&](const Vector3 &m) { return off(m) >= .5 * rc; });
-    break_where(core, [&](const Vector3 &m) { return off(m) < .5 * rc; });
+    break_where(rim.bonds, rim.particles, [&](const Vector3 &m) { return off(m) >= .5 * rc; });
+    break_where(core.bonds, core.particles, [&](const Vector3 &m) { return off(m) < .5 * rc; });
     const Shape shape = square ? box(2 * rc, 2 * rc, rim.height()) : rim.shape;
     const DamageByRegion none = damage_by_region(rim.particles, rim.bonds, shape, bond_losses(rim.bonds));
     for (const double share : {none.end_top, none.end_bottom, none.middle})

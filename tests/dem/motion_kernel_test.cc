@@ -1,15 +1,23 @@
-// The passes over particles: the same bits for every instruction set, and for two passes or one.
+// The passes over particles and the loops over contacts: the same bits for every instruction set, and for two
+// passes or one.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <ostream>
+#include <random>
 #include <set>
+#include <vector>
 
 #include "base/random.h"
+#include "dem/instruction_set.h"
 #include "dem/integrator.h"
 #include "dem/kernels/motion_kernel.h"
+#include "dem/laws/normal_contact.h"
+#include "dem/model.h"
+#include "dem/packing/specimen.h"
 #include "tests/dem/examples.h"
 
 namespace platen::dem {
@@ -53,12 +61,7 @@ protected:
     if (GetParam().dissipation > 1) p.add_excess();
     set_in_motion(p);
   }
-  Specimen cloud() const {
-    std::vector<Vector3> centres;
-    for (int k = 0; k < 1029; ++k)
-      centres.push_back(2.1 * radius * Vector3{1.0 * (k % 10), 1.0 * (k / 10 % 10), 1.0 * (k / 100)});
-    return spheres(centres);
-  }
+  Specimen cloud() const { return cubic(7, 7, 21, 2.1); }
 };
 
 void expect_same_bits(const Particles &a, const Particles &b, const std::string &what) {
@@ -160,6 +163,76 @@ INSTANTIATE_TEST_SUITE_P(
                     Effects{"dissipation_alone", true, 0, {}, true, 1.3},
                     Effects{"dissipation_without_ledger", false, 0, {}, false, 1.3}),
     [](const auto &effects) { return std::string(effects.param.name); });
+
+// A cloud of spheres that fall into each other, with every choice of effects.
+std::vector<char> collisions(const ModelSettings &settings) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> draw(-1, 1);
+  Specimen cloud;
+  while (cloud.centre.size() < 150) {
+    const Vector3 x{5e-3 * draw(random), 5e-3 * draw(random), 5e-3 * draw(random)};
+    bool apart = true;
+    for (const Vector3 &other : cloud.centre)
+      apart = apart && norm(x - other) > 1.9e-3;
+    if (!apart && random() % 400 != 0) continue; // a few that overlap
+    cloud.centre.push_back(x);
+    cloud.radius.push_back(0.7e-3 + 0.2e-3 * draw(random));
+  }
+  Model model(cloud, settings);
+  for (std::size_t i = 0; i < model.particles.size(); ++i) {
+    model.particles.velocity[i] = -2e3 * model.particles.position[i];
+    if (settings.rotation)
+      (*model.particles.angular_velocity)[i] = 2e4 * Vector3{draw(random), draw(random), draw(random)};
+  }
+  std::vector<char> bytes;
+  const auto put = [&](const auto &value) {
+    const char *from = reinterpret_cast<const char *>(&value);
+    bytes.insert(bytes.end(), from, from + sizeof value);
+  };
+  std::size_t most = 0;
+  const double dt = 2e-8;
+  for (int step = 0; step < 1500; ++step) {
+    model.begin_step(dt);
+    model.compute_forces(dt);
+    model.end_step(dt);
+    most = std::max(most, model.touching_count());
+    if (step % 100 != 0) continue;
+    for (std::size_t i = 0; i < model.particles.size(); ++i)
+      put(model.particles.position[i]), put(model.particles.force[i]);
+    const EnergyLedger energy = model.energy();
+    put(energy.contacts), put(energy.friction), put(energy.damping);
+  }
+  EXPECT_GT(most, 30u) << "touch at once";
+  return bytes;
+}
+
+TEST(ContactKernel, gives_the_same_bits_with_every_instruction_set) {
+  for (const NormalContact normal : {NormalContact::linear, NormalContact::hertz})
+    for (const TangentialContact tangential :
+         {TangentialContact::none, TangentialContact::coulomb, TangentialContact::coulomb_with_rolling})
+      for (const double damping : {0.0, 0.1})
+        for (const bool rotation : {true, false})
+          for (const bool ledger : {true, false}) {
+            if (!rotation && tangential == TangentialContact::coulomb_with_rolling) continue;
+            ModelSettings settings = unbonded(normal, tangential, 1e6);
+            settings.rotation = rotation;
+            settings.energy_ledger = ledger;
+            settings.local_damping = ModelSettings{}.local_damping;
+            settings.contact->friction = 0.3;
+            settings.contact->rolling_friction = 0.1;
+            settings.contact->damping = damping;
+            settings.contact->restitution = damping > 0 ? 0.7 : 1;
+            settings.instruction_set = InstructionSet::baseline;
+            const std::vector<char> expected = collisions(settings);
+            for (const InstructionSet set : instruction_sets_here()) {
+              settings.instruction_set = set;
+              EXPECT_TRUE(collisions(settings) == expected)
+                  << name(set) << ": the bits differ; " << word(normal) << ", tangential "
+                  << static_cast<int>(tangential) << ", damping " << damping << ", rotation " << rotation
+                  << ", ledger " << ledger;
+            }
+          }
+}
 
 } // namespace
 } // namespace platen::dem

@@ -14,12 +14,26 @@ namespace platen::dem::examples {
 // What acts by the law, and moves the state on.
 inline CohesiveResponse<double> act(const ElastoDamagePlastic &law, CohesiveState<double> &s,
                                     const CohesiveGeometry<double> &g, const CohesiveMotion<double> &m) {
-  return law.parameters.moments ? BendingCohesive{law}(s, g, m) : law(s, g, m);
+  if (law.parameters.moments) return BendingCohesive{law}(s, g, m);
+  CohesiveResponse<double> r = law(s, g, m);
+  const Triple<double> moment = cross(m.distance, r.force); // by the force at its arms
+  r.torque_i = scale(g.lever, moment), r.torque_j = scale(1 - g.lever, moment);
+  return r;
 }
 template <class Law>
 CohesiveResponse<double> act(const Law &law, typename Law::template State<double> &s,
                              const CohesiveGeometry<double> &g, const CohesiveMotion<double> &m) {
   return law(s, g, m);
+}
+// What sums over bonds ask for.
+inline HeldByBond<double> held(const ElastoDamagePlastic &law, const CohesiveState<double> &s,
+                               const CohesiveGeometry<double> &g, const BondMotion<double> &pose) {
+  return law.parameters.moments ? BendingCohesive{law}.held(s, g, pose) : law.held(s, g, pose);
+}
+template <class Law>
+HeldByBond<double> held(const Law &law, const typename Law::template State<double> &s,
+                        const CohesiveGeometry<double> &g, const BondMotion<double> &pose) {
+  return law.held(s, g, pose);
 }
 
 // The first sphere stays where it is, both turn.
@@ -30,7 +44,8 @@ struct OneBond {
   typename Law::template State<double> state{};
   CohesiveMotion<double> pose;
   CohesiveResponse<double> now{};
-  double work = 0; // J, by the trapezoid over each step: exact along straight lines
+  double work = 0;       // J, by the trapezoid over each step: exact along straight lines
+  double kinks_work = 0; // J, what that misses where a step crosses a kink, of laws that count it
 
   OneBond(const Law &of, double young, double length, double bond_radius)
       : law(of),
@@ -63,6 +78,19 @@ struct OneBond {
       end_step();
     }
   }
+  // As one, about the centre of the first.
+  void turn_rigidly(const Vector3 &angle, int steps) {
+    const CohesiveMotion<double> start = pose;
+    pose.turned_i = pose.turned_j = triple(angle / steps), pose.moved = {0, 0, 0};
+    for (int k = 1; k <= steps; ++k) { // from the start each time, so that round-off does not add up
+      const Triple<double> so_far = triple(angle * k / steps), before = pose.distance;
+      pose.distance = turned(turned_by({1, 0, 0, 0}, so_far), start.distance);
+      pose.travelled = pose.distance - before;
+      pose.turn_i = turned_by(start.turn_i, so_far), pose.turn_j = turned_by(start.turn_j, so_far);
+      pose.spun_along = dot(pose.turned_i, pose.distance);
+      now = act(law, state, geometry, pose);
+    }
+  }
   // As if it had come to where it is by these (m, m, rad m); returns the work of that, J.
   double impose(const Triple<double> &travelled, const Triple<double> &moved, double spun = 0) {
     const Triple<double> before = now.force;
@@ -76,21 +104,11 @@ struct OneBond {
   double shear() const { return norm(vector(now.shear)) / geometry.area; }
   double plastic() const { return law.plastic_work(state, geometry); } // J
   double balance() const { return now.energy + plastic() + state.dissipated; }
+  double whole_work() const { return work + kinks_work; }
 
 protected:
   virtual void begin_step() {}
   virtual void end_step() {}
 };
-
-// Concrete of Onate et al. 2015, table 5.
-inline ElastoDamagePlastic::Parameters cohesive_bond_of_concrete() {
-  ElastoDamagePlastic::Parameters p;
-  p.poisson_ratio = 0.2;
-  p.tensile_strength = 5e6, p.shear_strength = 16e6;
-  p.friction_static = 0.9, p.friction_dynamic = 0.25;
-  p.softening_tension = 0.2, p.softening_shear = 1.0;
-  p.compression_limits = {20e6, 45e6, 70e6}, p.compression_slopes = {3, 12, 22};
-  return p;
-}
 
 } // namespace platen::dem::examples

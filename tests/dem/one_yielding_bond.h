@@ -25,7 +25,6 @@ inline YieldingParallelBond::Parameters concrete() {
 
 struct Bond : examples::OneBond<YieldingParallelBond> {
   using State = YieldingParallelBond::State<double>;
-  double kinks_work = 0; // J, what the trapezoid misses of the normal force where a step crosses its kinks
 
   explicit Bond(const YieldingParallelBond::Parameters &p, double friction = 0.35)
       : OneBond(of(p, friction), modulus, length, radius) {}

@@ -91,20 +91,6 @@ TEST(AdvancingFront, draws_the_wanted_radii) {
   EXPECT_NEAR(mean_radius(spread), 0.4, 4 * 0.2 / std::sqrt(12.0 * static_cast<double>(spread.size())));
 }
 
-TEST(AdvancingFront, repeats_bit_for_bit_from_its_seed) {
-  const Shape shape = cylinder(5, 10);
-  const RadiusDistribution radii = uniform_radii_of_spread(0.45, 2.0 / 3);
-  const Specimen a = advancing_front(shape, radii, 7), b = advancing_front(shape, radii, 7),
-                 other = advancing_front(shape, radii, 8);
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a.radius[i], b.radius[i]);
-    for (int k = 0; k < 3; ++k)
-      EXPECT_EQ(a.centre[i][k], b.centre[i][k]);
-  }
-  EXPECT_NE(a.centre[0].x, other.centre[0].x);
-}
-
 TEST(AdvancingFront, refuses_what_cannot_be_packed) {
   EXPECT_THROW(advancing_front(cylinder(1, 10), equal_radii(1.1), 1), std::invalid_argument);
   EXPECT_THROW(advancing_front(cylinder(1, -1), equal_radii(0.1), 1), std::invalid_argument);

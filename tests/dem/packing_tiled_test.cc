@@ -96,9 +96,9 @@ TEST(PeriodicPacking, prefers_no_direction) {
   Matrix3 fabric{};
   for (const Vector3 &a : axes)
     for (int k = 0; k < 3; ++k)
-      fabric[static_cast<std::size_t>(k)] += a[k] * a[k] / norm_squared(a) / static_cast<double>(axes.size());
+      fabric[k] += a[k] * a[k] / norm_squared(a) / static_cast<double>(axes.size());
   for (int k = 0; k < 3; ++k) // standard deviation sqrt(4 / 45 / n) = .0026
-    EXPECT_NEAR(fabric[static_cast<std::size_t>(k)], 1.0 / 3, 0.011) << "axis " << k;
+    EXPECT_NEAR(fabric[k], 1.0 / 3, 0.011) << "axis " << k;
 }
 
 TEST(PeriodicPacking, moves_along_where_its_seeds_are_shifted) {
@@ -186,8 +186,7 @@ double contacts_through(const Specimen &s, double period, double place) {
     if (z < margin || z > s.shape.height - margin) continue;
     ++planes;
     for (const TouchingPair &p : pairs) {
-      const double a = s.centre[static_cast<std::size_t>(p.first)].z - z,
-                   b = s.centre[static_cast<std::size_t>(p.second)].z - z;
+      const double a = s.centre[p.first].z - z, b = s.centre[p.second].z - z;
       crossing += a * b < 0 ? 1 : 0;
     }
   }

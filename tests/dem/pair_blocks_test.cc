@@ -8,7 +8,9 @@
 #include <random>
 
 #include "base/parallel.h"
+#include "base/random.h"
 #include "dem/model.h"
+#include "dem/pair_lists.h"
 #include "tests/dem/examples.h"
 
 namespace platen::dem {
@@ -61,7 +63,7 @@ void expect_cut(const PairBlocks &blocks, const Pairs &pairs, std::size_t partic
   int before = -1, from_before = -1;
   for (std::size_t r = 0; r < blocks.returns.size(); ++r) {
     const auto &[particle, ghost] = blocks.returns[r];
-    EXPECT_EQ(blocks.ghost_particle[static_cast<std::size_t>(ghost)], particle);
+    EXPECT_EQ(blocks.ghost_particle[ghost], particle);
     EXPECT_TRUE(particle > before || (particle == before && ghost > from_before)) << "return " << r;
     before = particle, from_before = ghost;
     const std::size_t block = static_cast<std::size_t>(particle) / block_rows;
@@ -152,9 +154,9 @@ TEST(PairBlocks, that_get_a_pair_reach_its_particles_and_return_in_the_order_of_
       const double force = (block % 2 == 0 ? 1 : -1) * std::pow(10, 5 * (block % 4)) / 3;
       const int ghost = blocks.ghost_of(block, particle);
       ASSERT_GE(ghost, 0);
-      ASSERT_EQ(blocks.ghost_particle[static_cast<std::size_t>(ghost)], particle);
-      blocks.ghost_force[static_cast<std::size_t>(ghost)] = {force, 2 * force, -force};
-      expected[static_cast<std::size_t>(particle)] += {force, 2 * force, -force};
+      ASSERT_EQ(blocks.ghost_particle[ghost], particle);
+      blocks.ghost_force[ghost] = {force, 2 * force, -force};
+      expected[particle] += {force, 2 * force, -force};
     }
     EXPECT_EQ(blocks.own_ghosts(), reached.size()) << "one ghost for each particle that a block reaches";
     std::fill(p.force.begin(), p.force.end(), Vector3{});
@@ -198,6 +200,81 @@ TEST(PairBlocks, return_remote_ghosts_by_the_blocks_that_they_come_from) {
   // Own ghosts: 0 (b, from block 0), 1 (last, from block 0), 2 (last, from block 2).
   EXPECT_EQ(returned, (std::vector<Pair>{{b, 0}, {b, 4}, {last, 1}, {last, 3}, {last, 2}, {last, 5}}));
   EXPECT_EQ(blocks.ghost_force.size(), 6u);
+}
+
+struct Row {
+  IndexPair pair;
+  double value = 0;
+  operator IndexPair() const { return pair; }
+};
+
+int drawn(Random &random, int below) {
+  return static_cast<int>(random.uniform(0, below));
+}
+
+// Each with its next three.
+PairLists<IndexPair> neighbours(int spheres) {
+  std::vector<IndexPair> pairs;
+  for (int i = 0; i + 3 < spheres; ++i)
+    for (int j = 1; j <= 3; ++j)
+      pairs.push_back({i, i + j});
+  PairLists<IndexPair> lists;
+  lists.assign(pairs);
+  return lists;
+}
+
+TEST(pair_lists, hold_what_one_sorted_list_holds) {
+  Random random(3);
+  PairLists<Row> lists;
+  std::vector<Row> sorted;
+  for (int k = 0; k < 3000; ++k) {
+    const IndexPair pair{drawn(random, 2000), 2000 + drawn(random, 3)};
+    const auto at =
+        std::lower_bound(sorted.begin(), sorted.end(), pair, [](IndexPair a, IndexPair b) { return a < b; });
+    const bool is_new = at == sorted.end() || !(at->pair == pair);
+    ASSERT_EQ(lists.insert({pair, 1.0 * k}), is_new);
+    if (is_new) sorted.insert(at, {pair, 1.0 * k});
+  }
+  const auto expect_equal = [&] {
+    const std::vector<Row> rows = lists.rows();
+    ASSERT_EQ(lists.size(), sorted.size());
+    ASSERT_EQ(rows.size(), sorted.size());
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      ASSERT_TRUE(rows[k].pair == sorted[k].pair) << k;
+      ASSERT_EQ(rows[k].value, sorted[k].value) << k;
+      ASSERT_EQ(lists.find(sorted[k].pair)->value, sorted[k].value) << k;
+    }
+  };
+  expect_equal();
+  EXPECT_EQ(lists.find({5, 2003}), nullptr);
+  EXPECT_EQ(lists.find({99999, 100000}), nullptr);
+  lists.assign(lists.rows());
+  expect_equal();
+  const std::vector<Row> even = lists.rows_if([](const Row &row) { return row.pair.first % 2 == 0; });
+  std::size_t of_even = 0;
+  for (const Row &row : sorted)
+    of_even += row.pair.first % 2 == 0;
+  EXPECT_EQ(even.size(), of_even);
+  lists.assign({});
+  EXPECT_EQ(lists.size(), 0u);
+  EXPECT_TRUE(lists.rows().empty());
+}
+
+TEST(pair_lists, a_pair_that_is_added_moves_as_much_in_a_large_specimen_as_in_a_small_one) {
+  const auto bytes_of_a_pair = [](int spheres) {
+    constexpr int pairs = 200;
+    PairLists<IndexPair> lists = neighbours(spheres);
+    Random random(4);
+    for (int k = 0; k < pairs; ++k) {
+      const int first = drawn(random, spheres - 100);
+      lists.insert({first, first + 4 + drawn(random, 90)});
+    }
+    return static_cast<double>(lists.bytes_moved()) / pairs;
+  };
+  const double small = bytes_of_a_pair(20000), large = bytes_of_a_pair(80000);
+  EXPECT_NEAR(large / small, 1, .2);
+  // Half a block of three pairs each in the mean.
+  EXPECT_NEAR(small, .5 * 3 * block_rows * sizeof(IndexPair), .2 * small);
 }
 
 } // namespace

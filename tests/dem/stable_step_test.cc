@@ -78,18 +78,12 @@ TEST(stable_step, of_a_pair_is_that_of_its_stiffest_mode) {
   expect_close_from_below(row(1, {1, 0, 0}), bonded());
 }
 
-TEST(stable_step, of_a_chain) {
+TEST(stable_step, of_chains_and_blocks) {
+  ModelSettings still = bonded();
+  still.rotation = false;
   expect_close_from_below(row(12, {1, 2, -1}), bonded());
-}
-
-TEST(stable_step, of_a_bonded_block) {
   expect_close_from_below(packed_box(12, 12, 12), bonded());
-}
-
-TEST(stable_step, of_a_block_without_rotation) {
-  ModelSettings settings = bonded();
-  settings.rotation = false;
-  expect_close_from_below(packed_box(12, 12, 12), settings);
+  expect_close_from_below(packed_box(12, 12, 12), still);
 }
 
 TEST(stable_step, of_a_block_of_unequal_spheres_with_dashpots) {

@@ -1,15 +1,17 @@
-// Bonds of unlike strength: the distribution, who breaks first, and what does not change.
+// Bonds of unlike strength: the distribution, who breaks first, and what does not change. Aggregates in a
+// matrix: who is what, springs in series, and where cracks begin.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <ostream>
-#include <set>
+#include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "base/random.h"
+#include "dem/heterogeneity.h"
 #include "tests/dem/examples.h"
 
 namespace platen::dem {
@@ -63,100 +65,25 @@ TEST(strength_scatter, that_is_off_has_no_column) {
   EXPECT_EQ(Model(row(3, {1, 0, 0}), breakable()).bonds->strength_factor, nullptr);
 }
 
-struct Law {
-  const char *name;
-  bool beams, rotation, moments;
-  double strain; // at which some bonds of a block break and most do not
-};
-void PrintTo(const Law &law, std::ostream *to) {
-  *to << law.name;
-}
-
-class ScatteredBonds : public testing::TestWithParam<Law> {
-protected:
-  static ModelSettings settings(double m) {
-    const Law law = GetParam();
-    ModelSettings s = scattered(m);
-    if (law.beams) {
-      CohesiveBeam::Parameters beam;
-      beam.tensile_strength = tensile_strength, beam.shear_strength = shear_strength;
-      s.bond = beam;
-      return s;
-    }
-    s.rotation = law.rotation;
-    parallel_bond(s).moments = law.moments;
-    return s;
-  }
-  static std::vector<InstructionSet> sets() {
-    std::vector<InstructionSet> all{InstructionSet::baseline};
-    if (best_instruction_set() >= InstructionSet::avx2) all.push_back(InstructionSet::avx2);
-    if (best_instruction_set() >= InstructionSet::avx512) all.push_back(InstructionSet::avx512);
-    return all;
-  }
-};
-
 // A chain stretched evenly: all bonds bear the same stress, E times the strain.
-TEST_P(ScatteredBonds, of_a_chain_break_at_the_smallest_factor) {
-  Model model(row(37, {1, 2, -1}), settings(6));
+TEST(strength_scatter, a_chain_breaks_at_its_smallest_factor) {
+  Model model(row(37, {1, 2, -1}), scattered(6));
   Particles &p = model.particles;
   const Column<double> &factor = *model.bonds->strength_factor;
   const auto weakest = std::min_element(factor.begin(), factor.end());
-  const auto stretch_to = [&](double share) { // of what the weakest bond bears
-    for (std::size_t i = 0; i < p.size(); ++i)
-      p.position[i] = (1 + share * *weakest * tensile_strength / modulus) * p.reference_position[i];
-  };
-  for (const InstructionSet set : sets()) {
-    std::vector<BondBreak> breaks;
-    stretch_to(1 - 1e-9); // strains of 1e-4 in positions of 1e-16
-    kernel_loads(p, *model.bonds, set, breaks);
-    EXPECT_TRUE(breaks.empty()) << name(set);
-    stretch_to(1 + 1e-9);
-    kernel_loads(p, *model.bonds, set, breaks);
-    ASSERT_EQ(breaks.size(), 1u) << name(set);
-    EXPECT_EQ(breaks[0].row, weakest - factor.begin());
-    EXPECT_EQ(breaks[0].mode, BondState::broken_in_tension);
-  }
-}
-
-// Loops and law agree on a block in which every kind of load is mixed, and forces know nothing of strengths.
-TEST_P(ScatteredBonds, break_where_the_law_says) {
-  Model model(packed_box(12, 12, 12), settings(3)), alike(packed_box(12, 12, 12), settings(3));
-  std::fill(alike.bonds->strength_factor->begin(), alike.bonds->strength_factor->end(), 1.0);
-  for (Model *one : {&model, &alike}) {
-    Random random(3);
-    for (std::size_t i = 0; i < one->particles.size(); ++i) {
-      one->particles.position[i] += GetParam().strain * radius * random.direction();
-      if (one->particles.has_rotation())
-        (*one->particles.orientation)[i] = rotation_quaternion(GetParam().strain * random.direction());
+  for (const InstructionSet set : instruction_sets_here())
+    for (const double share :
+         {1 - 1e-9, 1 + 1e-9}) { // of what it bears; strains of 1e-4 in positions of 1e-16
+      for (std::size_t i = 0; i < p.size(); ++i)
+        p.position[i] = (1 + share * *weakest * tensile_strength / modulus) * p.reference_position[i];
+      std::vector<BondBreak> breaks;
+      kernel_loads(p, *model.bonds, set, breaks);
+      ASSERT_EQ(breaks.size(), share > 1 ? 1u : 0u) << name(set);
+      if (share < 1) continue;
+      EXPECT_EQ(breaks[0].row, weakest - factor.begin());
+      EXPECT_EQ(breaks[0].mode, BondState::broken_in_tension);
     }
-  }
-  std::set<int> expected;
-  for (std::size_t k = 0; k < model.bonds->size(); ++k) {
-    const BondResponse<double> r = model.bonds->response(k, model.particles);
-    if (r.tension_ratio >= 1 || r.shear_ratio >= 1) expected.insert(static_cast<int>(k));
-  }
-  EXPECT_GT(expected.size(), 20u);
-  EXPECT_LT(expected.size(), model.bonds->size() / 2);
-  for (const InstructionSet set : sets()) {
-    std::vector<BondBreak> breaks, of_alike;
-    const Loads loads = kernel_loads(model.particles, *model.bonds, set, breaks);
-    std::set<int> found;
-    for (const BondBreak &b : breaks)
-      found.insert(b.row);
-    EXPECT_EQ(found, expected) << name(set);
-    const Loads plain = kernel_loads(alike.particles, *alike.bonds, set, of_alike);
-    EXPECT_NE(of_alike.size(), breaks.size());
-    for (std::size_t i = 0; i < loads.force.size(); ++i)
-      ASSERT_EQ(norm(loads.force[i] - plain.force[i]), 0) << name(set);
-  }
 }
-
-INSTANTIATE_TEST_SUITE_P(strength_scatter, ScatteredBonds,
-                         testing::Values(Law{"parallel_bonds", false, true, true, 2e-4},
-                                         Law{"without_moments", false, true, false, 4e-4},
-                                         Law{"without_rotation", false, false, false, 6e-4},
-                                         Law{"beams", true, true, true, .5e-4}),
-                         [](const auto &of) { return std::string(of.param.name); });
 
 // The weakest of n factors has the mean n^(-1/m) (Weibull 1951); the spread of the mean of 400 chains is a
 // twentieth of that of one.
@@ -176,7 +103,7 @@ TEST(strength_scatter, weakens_chains_by_the_root_of_their_length) {
       p.position[i].x *= 1 + strain;
     std::map<int, double> largest; // ratio in each chain
     for (std::size_t k = 0; k < model.bonds->size(); ++k) {
-      double &ratio = largest[p.id[static_cast<std::size_t>(model.bonds->first[k])] / (n + 1)];
+      double &ratio = largest[p.id[model.bonds->first[k]] / (n + 1)];
       ratio = std::max(ratio, model.bonds->response(k, p).tension_ratio);
     }
     double sum = 0;
@@ -221,6 +148,119 @@ TEST(strength_scatter, does_not_depend_on_the_order_of_the_spheres) {
     EXPECT_EQ((*one.bonds->strength_factor)[k], (*other.bonds->strength_factor)[k]);
     EXPECT_EQ(norm(one.bonds->reference[k] - other.bonds->reference[k]), 0);
   }
+}
+
+// Four spheres in a row: two of the aggregate, two of the matrix.
+ModelSettings two_phases() {
+  ModelSettings settings = breakable();
+  Phases phases;
+  phases.aggregate_ids = {1, 0};
+  phases.aggregate = {3, 2};
+  phases.interface = {.5, .25};
+  settings.phases = phases;
+  return settings;
+}
+
+std::size_t bond_between(const Model &model, int a, int b) {
+  const Bonds &bonds = *model.bonds;
+  for (std::size_t k = 0; k < bonds.size(); ++k) {
+    const int i = model.particles.id[bonds.first[k]], j = model.particles.id[bonds.second[k]];
+    if (std::pair(std::min(i, j), std::max(i, j)) == std::pair(a, b)) return k;
+  }
+  throw std::out_of_range("no such bond");
+}
+
+TEST(phases, are_told_by_radius_or_by_list) {
+  Specimen s = row(3, {1, 0, 0});
+  s.radius[2] *= 1.2, s.radius[3] *= .9;
+  ModelSettings settings = bonded();
+  settings.bond_layout.gap.value = .3;
+  settings.phases = Phases{};
+  settings.phases->radius_above = 1.1 * radius;
+  const Model by_radius(s, settings);
+  settings.phases->radius_above = radius; // those of just this radius are of the matrix
+  const Model at_the_radius(s, settings);
+  settings.phases = Phases{};
+  settings.phases->aggregate_ids = {3, 0};
+  const Model by_list(s, settings);
+  for (int id = 0; id < 4; ++id) {
+    const auto phase = [&](const Model &m) { return (*m.particles.phase)[row_of(m.particles, id)]; };
+    EXPECT_EQ(phase(by_radius), id == 2) << id;
+    EXPECT_EQ(phase(at_the_radius), id == 2) << id;
+    EXPECT_EQ(phase(by_list), id == 3 || id == 0) << id;
+  }
+  EXPECT_EQ(Model(s, bonded()).particles.phase, nullptr);
+  EXPECT_EQ(by_list.bonds->strength_factor, nullptr); // all factors are 1
+}
+
+TEST(phases, know_every_particle_that_a_list_names) {
+  ModelSettings settings = bonded();
+  for (const int id : {-1, 4}) {
+    settings.phases = Phases{};
+    settings.phases->aggregate_ids = {0, id};
+    EXPECT_THROW(Model(row(3, {1, 0, 0}), settings), std::invalid_argument) << id;
+  }
+}
+
+TEST(phases, give_each_kind_of_bond_its_factors) {
+  const Model model(row(3, {1, 0, 0}), two_phases());
+  const Bonds &b = *model.bonds;
+  const struct {
+    int i, j;
+    double modulus, strength;
+  } wanted[] = {{0, 1, 3, 2}, {1, 2, .5, .25}, {2, 3, 1, 1}};
+  for (const auto &w : wanted) {
+    const std::size_t k = bond_between(model, w.i, w.j);
+    EXPECT_DOUBLE_EQ(b.normal_stiffness[k], w.modulus * normal_stiffness);
+    EXPECT_DOUBLE_EQ((*b.strength_factor)[k], w.strength);
+  }
+}
+
+// Pulled to one force, the three springs stretch by F/K each: inner spheres are at rest there, and the row is
+// as stiff as 1 / (1/K_1 + 1/K_2 + 1/K_3). At a quarter of the matrix' strength the interface alone is at its
+// own.
+TEST(phases, in_series_share_the_force_and_break_first_at_the_interface) {
+  for (const double share : {.1, .25 - 1e-6, .25 + 1e-6}) {
+    Model model(row(3, {1, 0, 0}), two_phases());
+    Particles &p = model.particles;
+    const double K = normal_stiffness * area, force = share * tensile_strength * area;
+    const double stretch[] = {force / (3 * K), force / (.5 * K), force / K};
+    double moved = 0;
+    for (int id = 1; id < 4; ++id) {
+      moved += stretch[id - 1];
+      p.position[row_of(p, id)].x += moved;
+    }
+    EXPECT_NEAR(force / moved, K / (1 / 3.0 + 1 / .5 + 1), 1e-12 * K);
+    std::vector<BondBreak> breaks;
+    const Loads loads = kernel_loads(p, *model.bonds, best_instruction_set(), breaks);
+    for (int id = 0; id < 4; ++id)
+      EXPECT_NEAR(loads.force[row_of(p, id)].x, id == 0 ? force : id == 3 ? -force : 0, 1e-9 * force);
+    ASSERT_EQ(breaks.size(), share > .25 ? 1u : 0u);
+    for (const BondBreak &b : breaks)
+      EXPECT_EQ(b.row, static_cast<int>(bond_between(model, 1, 2)));
+  }
+}
+
+// A broken pair touches with the stiffness of the bond that it had.
+TEST(phases, have_contacts_as_stiff_as_their_bonds) {
+  Model model(row(3, {1, 0, 0}), two_phases());
+  Particles &p = model.particles;
+  const double K = normal_stiffness * area;
+  const auto bound = [&](int a, int b) {
+    return model.contacts
+        ->stiffness_bound(p, static_cast<int>(row_of(p, a)), static_cast<int>(row_of(p, b)), 0)
+        .normal;
+  };
+  EXPECT_DOUBLE_EQ(bound(0, 1), 3 * K);
+  EXPECT_DOUBLE_EQ(bound(1, 2), .5 * K);
+  EXPECT_DOUBLE_EQ(bound(2, 3), K);
+  const std::size_t k = bond_between(model, 0, 1);
+  const BrokenBond broken =
+      model.bonds->break_rows({{static_cast<int>(k), BondState::broken_in_tension}}, p, 0).front();
+  std::vector<BrokenBond> all{broken};
+  model.contacts->take_over(p, *model.bonds, all, 1e-9);
+  ASSERT_EQ(model.contacts->table.size(), 1u);
+  EXPECT_DOUBLE_EQ(model.contacts->coefficient[0], 3 * K);
 }
 
 } // namespace

@@ -31,8 +31,8 @@ inline BlockGraph box_of_blocks(int nx, int ny, int nz, double ghosts = 1) {
   std::vector<std::map<int, double>> edges(static_cast<std::size_t>(nx * ny * nz));
   const auto number = [&](int x, int y, int z) { return x + nx * (y + ny * z); };
   const auto join = [&](int a, int b) {
-    edges[static_cast<std::size_t>(a)][b] = ghosts;
-    edges[static_cast<std::size_t>(b)][a] = ghosts;
+    edges[a][b] = ghosts;
+    edges[b][a] = ghosts;
   };
   for (int z = 0; z < nz; ++z)
     for (int y = 0; y < ny; ++y)

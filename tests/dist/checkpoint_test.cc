@@ -1,20 +1,12 @@
 // The file of one checkpoint, written by ranks that hold a part of its rows each: the bytes that one process
 // writes, and any number of ranks goes on from it. Every rank has both models.
-#include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
-#include <csignal>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-
 #include "apps/output/checkpoint.h"
 #include "apps/output/checkpoint_folder.h"
 #include "apps/output/rank_checkpoint.h"
 #include "apps/scene/rank.h"
 #include "dist/ranks.h"
 #include "tests/dist/cracking_block.h"
+#include "tests/dist/on_ranks.h"
 #include "tests/same_state.h"
 
 using namespace platen;
@@ -24,26 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using platen::dist::testing::block_of;
-using platen::dist::testing::run;
-using platen::dist::testing::with_all;
-
-int rank_of_this() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
-
-int number_of_ranks() {
-  int size = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
-  return size;
-}
-
-std::string bytes_in(const fs::path &path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+using namespace platen::dist::testing;
 
 // A block that is cut over these ranks.
 std::unique_ptr<dem::Model> cut_block(const dem::ModelSettings &settings, MPI_Comm over) {
@@ -67,19 +40,14 @@ fs::path write_of_ranks(dem::Model &model, const fs::path &folder, std::uint64_t
                                [&](StateSink &to) { fill(to, model); });
 }
 
-class Checkpoint : public ::testing::Test {
+class Checkpoint : public dist::testing::WithFolder {
 protected:
   void SetUp() override {
     this_rank() = {rank_of_this(), number_of_ranks()};
-    int number = static_cast<int>(::getpid());
-    MPI_Bcast(&number, 1, MPI_INT, 0, MPI_COMM_WORLD);
-    folder_ = fs::temp_directory_path() / ("platen_checkpoint_of_ranks_" + std::to_string(number));
-    if (rank_of_this() == 0) fs::create_directories(folder_);
-    MPI_Barrier(MPI_COMM_WORLD);
+    WithFolder::SetUp();
   }
   void TearDown() override {
-    MPI_Barrier(MPI_COMM_WORLD);
-    if (rank_of_this() == 0) fs::remove_all(folder_);
+    WithFolder::TearDown();
     this_rank() = {};
   }
   // By rank 0, read by all.
@@ -119,41 +87,22 @@ protected:
     EXPECT_TRUE(same_state(*alone, *cut)) << "after the checkpoints";
     EXPECT_EQ(alone->energy().residual(), cut->energy().residual());
   }
-  fs::path folder_;
 };
 
-TEST_F(Checkpoint, of_a_cracking_block_with_all_effects_is_the_file_of_one_process) {
-  expect_the_same_files(with_all());
-}
-
-TEST_F(Checkpoint, with_a_history_of_friction_and_rolling_is_the_file_of_one_process) {
-  dem::ModelSettings settings = with_all();
-  settings.bond_dashpot = 0;
-  settings.contact->normal = dem::NormalContact::hertz;
-  settings.contact->tangential = dem::TangentialContact::coulomb_with_rolling;
-  settings.contact->rolling_friction = .2;
-  expect_the_same_files(settings);
-}
-
-TEST_F(Checkpoint, of_bonds_that_remember_is_the_file_of_one_process) {
-  expect_the_same_files(dem::examples::interfaces());
-}
-
-TEST_F(Checkpoint, without_bonds_or_without_contacts_is_the_file_of_one_process) {
-  dem::ModelSettings settings = dem::examples::breakable();
-  settings.contact.reset();
-  settings.rotation = false;
-  expect_the_same_files(settings);
-  settings = dem::examples::breakable();
-  settings.bond.reset();
-  const auto alone = block_of(settings), cut = cut_block(settings, MPI_COMM_WORLD);
+TEST_F(Checkpoint, is_the_file_of_one_process) {
+  for (const char *name :
+       {"all_effects", "hertz_and_rolling", "interfaces", "bonds_alone", "without_rotation"}) {
+    SCOPED_TRACE(name);
+    expect_the_same_files(set_up(name));
+  }
+  const auto alone = block_of(set_up("grains")), cut = cut_block(set_up("grains"), MPI_COMM_WORLD);
   run(*alone, 20, 1e-7), run(*cut, 20, 1e-7);
   expect_the_same_file(*alone, *cut, 20);
 }
 
 // Two groups of ranks, the first smaller, and one process go on from the file of all.
 TEST_F(Checkpoint, is_gone_on_from_by_other_numbers_of_ranks) {
-  const auto before = cut_block(with_all(), MPI_COMM_WORLD);
+  const auto before = cut_block(set_up("all_effects"), MPI_COMM_WORLD);
   const double dt = .5 * before->stable_step({}, 0).limit;
   run(*before, 60, dt);
   const fs::path path = write_of_ranks(*before, folder_, 60);
@@ -162,7 +111,7 @@ TEST_F(Checkpoint, is_gone_on_from_by_other_numbers_of_ranks) {
   MPI_Comm group = MPI_COMM_NULL;
   const int first = (number_of_ranks() + 2) / 3;
   MPI_Comm_split(MPI_COMM_WORLD, rank_of_this() < first, rank_of_this(), &group);
-  const auto resumed = cut_block(with_all(), group), alone = block_of(with_all());
+  const auto resumed = cut_block(set_up("all_effects"), group), alone = block_of(set_up("all_effects"));
   for (dem::Model *model : {resumed.get(), alone.get()}) {
     read_part(CheckpointReader(path), "specimen", *model);
     run(*model, 20, dt);
@@ -176,28 +125,20 @@ TEST_F(Checkpoint, is_gone_on_from_by_other_numbers_of_ranks) {
 
 // The last rank may write no byte beyond the first hundred of a file.
 TEST_F(Checkpoint, that_one_rank_cannot_write_leaves_the_former_ones) {
-  const auto cut = cut_block(with_all(), MPI_COMM_WORLD);
+  const auto cut = cut_block(set_up("all_effects"), MPI_COMM_WORLD);
   run(*cut, 10, 1e-8);
   const std::string former = bytes_in(write_of_ranks(*cut, folder_, 10));
   run(*cut, 10, 1e-8);
   // One that has rows to write.
   const int last = dynamic_cast<const Ranks &>(*cut->exchange()).partition().useful_ranks - 1;
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  MPI_Barrier(MPI_COMM_WORLD);
-  if (rank_of_this() == last) {
-    const rlimit small{100, before.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &small);
-  }
   std::string error;
-  try {
-    write_of_ranks(*cut, folder_, 20);
-  } catch (const OutputError &e) {
-    error = e.what();
-  }
-  setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, handler);
+  with_small_files(last, 100, [&] {
+    try {
+      write_of_ranks(*cut, folder_, 20);
+    } catch (const OutputError &e) {
+      error = e.what();
+    }
+  });
   const fs::path path = checkpoint_path(folder_, 20);
   EXPECT_EQ(error, part_path(path).string() + ": cannot be written: File too large (rank " +
                        std::to_string(last) + ")");
@@ -211,7 +152,7 @@ TEST_F(Checkpoint, that_one_rank_cannot_write_leaves_the_former_ones) {
 }
 
 TEST_F(Checkpoint, whose_folder_cannot_be_made_is_told_on_all_ranks) {
-  const auto cut = cut_block(with_all(), MPI_COMM_WORLD);
+  const auto cut = cut_block(set_up("all_effects"), MPI_COMM_WORLD);
   run(*cut, 10, 1e-8);
   const fs::path file = folder_ / "file";
   if (rank_of_this() == 0) std::ofstream(file) << "no folder";
@@ -225,7 +166,7 @@ TEST_F(Checkpoint, whose_folder_cannot_be_made_is_told_on_all_ranks) {
 }
 
 TEST_F(Checkpoint, of_ranks_keeps_the_two_newest) {
-  const auto cut = cut_block(with_all(), MPI_COMM_WORLD);
+  const auto cut = cut_block(set_up("all_effects"), MPI_COMM_WORLD);
   for (const std::uint64_t step : {10, 20, 30}) {
     run(*cut, 10, 1e-8);
     write_of_ranks(*cut, folder_, step);

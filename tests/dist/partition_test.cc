@@ -1,7 +1,5 @@
 #include "dist/partition.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -9,6 +7,7 @@
 
 #include "block_graphs.h"
 #include "dist/zoltan_cut.h"
+#include "on_ranks.h"
 
 using namespace platen;
 using namespace platen::dist;
@@ -17,11 +16,7 @@ namespace {
 
 using Method = PartitionMethod;
 
-int ranks() {
-  int number = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &number);
-  return number;
-}
+const auto ranks = platen::dist::testing::number_of_ranks;
 
 Partition cut(const BlockGraph &graph, std::vector<Method> methods = {Method::graph, Method::bisection}) {
   PartitionLimits limits;
@@ -32,7 +27,7 @@ Partition cut(const BlockGraph &graph, std::vector<Method> methods = {Method::gr
 std::vector<double> work_of_ranks(const Partition &p, const BlockGraph &graph) {
   std::vector<double> work(static_cast<std::size_t>(ranks()));
   for (std::size_t b = 0; b < graph.blocks(); ++b)
-    work[static_cast<std::size_t>(p.rank[b])] += graph.weight[b];
+    work[p.rank[b]] += graph.weight[b];
   return work;
 }
 
@@ -130,7 +125,7 @@ TEST(Partition, shares_the_work_out_not_the_blocks) {
   // The first quarter of a bar is five times the work: cut by numbers, rank 0 of two would have 80 of 96.
   BlockGraph bar = box_of_blocks(64, 1, 1);
   for (int b = 0; b < 16; ++b)
-    bar.weight[static_cast<std::size_t>(b)] = 5;
+    bar.weight[b] = 5;
   const double total = std::accumulate(bar.weight.begin(), bar.weight.end(), 0.0);
   for (const auto &methods : std::vector<std::vector<Method>>{{Method::graph}, {Method::bisection}, {}}) {
     const Partition p = cut(bar, methods);
@@ -149,8 +144,8 @@ TEST(Partition, by_the_graph_goes_where_few_ghosts_are) {
   std::vector<Vector3> centres;
   std::vector<std::map<int, double>> edges(48);
   const auto join = [&](int a, int b, double ghosts) {
-    edges[static_cast<std::size_t>(a)][b] = ghosts;
-    edges[static_cast<std::size_t>(b)][a] = ghosts;
+    edges[a][b] = ghosts;
+    edges[b][a] = ghosts;
   };
   // A chain of 48 blocks that jumps to and fro along an axis: what is near is no neighbour.
   for (int b = 0; b < 48; ++b) {
@@ -166,9 +161,9 @@ TEST(Partition, by_the_graph_goes_where_few_ghosts_are) {
   std::vector<Vector3> sorted(48);
   std::vector<std::map<int, double>> other(48);
   for (int b = 0; b < 48; ++b) {
-    sorted[static_cast<std::size_t>(b * 29 % 48)] = centres[static_cast<std::size_t>(b)];
-    for (const auto &[n, w] : edges[static_cast<std::size_t>(b)])
-      other[static_cast<std::size_t>(b * 29 % 48)][n * 29 % 48] = w;
+    sorted[b * 29 % 48] = centres[b];
+    for (const auto &[n, w] : edges[b])
+      other[b * 29 % 48][n * 29 % 48] = w;
   }
   chain = graph_from(sorted, other);
   EXPECT_EQ(cut(chain, {}).method, Method::curve);
@@ -297,7 +292,7 @@ TEST(CutInOrder, is_as_good_as_the_best_of_all_cuts) {
       for (int j = i + 1; j < 6; ++j) {
         double sums[3] = {};
         for (int b = 0; b < 6; ++b)
-          sums[(b >= i) + (b >= j)] += weight[static_cast<std::size_t>(b)];
+          sums[(b >= i) + (b >= j)] += weight[b];
         best = std::min(best, *std::max_element(sums, sums + 3));
       }
     const std::vector<int> part = cut_in_order(weight, 3);

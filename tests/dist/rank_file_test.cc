@@ -1,61 +1,28 @@
 #include "dist/rank_file.h"
 
-#include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
-#include <csignal>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
+#include <vector>
 
+#include "on_ranks.h"
+
+using namespace platen;
 using namespace platen::dist;
+using namespace platen::dist::testing;
 namespace fs = std::filesystem;
 
 namespace {
 
-int rank_of_this() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
-
-int number_of_ranks() {
-  int size = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
-  return size;
-}
-
-// A folder that all ranks share, gone at the end.
-class RankFile : public testing::Test {
+class RankFile : public dist::testing::WithFolder {
 protected:
   void SetUp() override {
-    int number = static_cast<int>(::getpid());
-    MPI_Bcast(&number, 1, MPI_INT, 0, MPI_COMM_WORLD);
-    folder_ = fs::temp_directory_path() / ("platen_rank_file_" + std::to_string(number));
+    WithFolder::SetUp();
     path_ = (folder_ / "state.platen").string();
-    if (rank_of_this() == 0) fs::create_directories(folder_);
-    MPI_Barrier(MPI_COMM_WORLD);
   }
-  void TearDown() override {
-    MPI_Barrier(MPI_COMM_WORLD);
-    if (rank_of_this() == 0) fs::remove_all(folder_);
-  }
-  fs::path folder_;
   std::string path_;
 };
 
-std::vector<char> text_of(std::size_t length) {
-  std::vector<char> text(length);
-  unsigned state = 11;
-  for (char &c : text)
-    c = static_cast<char>((state = state * 1664525u + 1013904223u) >> 24);
-  return text;
-}
-
 // Stretches of unlike lengths in turn to the ranks, by a rule that all know; given in descending order.
-std::vector<FilePiece> pieces_of(const std::vector<char> &text, std::size_t shortest) {
+std::vector<FilePiece> pieces_of(const std::string &text, std::size_t shortest) {
   std::vector<FilePiece> pieces;
   std::size_t offset = 0;
   for (std::size_t k = 0; offset < text.size(); ++k) {
@@ -65,11 +32,6 @@ std::vector<FilePiece> pieces_of(const std::vector<char> &text, std::size_t shor
     offset += length;
   }
   return pieces;
-}
-
-std::vector<char> bytes_in(const std::string &path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 // What write_rank_file throws on every rank; empty where it does not.
@@ -91,7 +53,7 @@ void expect_on_all_ranks(const std::string &text, const std::string &path, const
 
 TEST_F(RankFile, is_the_same_bytes_as_one_rank_would_write) {
   for (const std::size_t length : {1, 7, 1000, 300000}) {
-    const std::vector<char> text = text_of(length);
+    const std::string text = text_of(length);
     write_rank_file(MPI_COMM_WORLD, path_, pieces_of(text, 1 + length / 50));
     EXPECT_TRUE(bytes_in(path_) == text) << length << " bytes, " << bytes_in(path_).size() << " in the file";
     MPI_Barrier(MPI_COMM_WORLD); // before the next one replaces it
@@ -99,14 +61,14 @@ TEST_F(RankFile, is_the_same_bytes_as_one_rank_would_write) {
 }
 
 TEST_F(RankFile, replaces_a_longer_one) {
-  const std::vector<char> longer = text_of(5000), shorter(2000, 'x');
+  const std::string longer = text_of(5000), shorter(2000, 'x');
   write_rank_file(MPI_COMM_WORLD, path_, pieces_of(longer, 100));
   write_rank_file(MPI_COMM_WORLD, path_, pieces_of(shorter, 100));
   EXPECT_TRUE(bytes_in(path_) == shorter) << bytes_in(path_).size() << " bytes";
 }
 
 TEST_F(RankFile, takes_large_pieces_in_several_calls) {
-  const std::vector<char> text = text_of(10007);
+  const std::string text = text_of(10007);
   for (const std::uint64_t at_once : {1, 64, 999}) {
     if (at_once == 1 && number_of_ranks() > 3) continue; // ten thousand calls
     write_rank_file(MPI_COMM_WORLD, path_, pieces_of(text, 3000), at_once);
@@ -116,7 +78,7 @@ TEST_F(RankFile, takes_large_pieces_in_several_calls) {
 }
 
 TEST_F(RankFile, of_one_rank_alone_and_of_no_bytes) {
-  const std::vector<char> text = text_of(400);
+  const std::string text = text_of(400);
   const bool last = rank_of_this() == number_of_ranks() - 1;
   write_rank_file(MPI_COMM_WORLD, path_,
                   last ? std::vector<FilePiece>{{0, text.data(), 400}} : std::vector<FilePiece>{});
@@ -127,7 +89,7 @@ TEST_F(RankFile, of_one_rank_alone_and_of_no_bytes) {
 }
 
 TEST_F(RankFile, that_cannot_be_opened_is_told_on_all_ranks) {
-  const std::vector<char> text = text_of(100);
+  const std::string text = text_of(100);
   const std::string nowhere = (folder_ / "none" / "state.platen").string();
   expect_on_all_ranks(error_of(nowhere, pieces_of(text, 10)), nowhere, "No such file or directory",
                       "(rank 0)");
@@ -136,7 +98,7 @@ TEST_F(RankFile, that_cannot_be_opened_is_told_on_all_ranks) {
 }
 
 TEST_F(RankFile, on_a_full_disk_is_told_on_all_ranks) {
-  const std::vector<char> text = text_of(100);
+  const std::string text = text_of(100);
   const std::string error = error_of("/dev/full", pieces_of(text, 10));
   EXPECT_EQ(error.rfind("/dev/full: cannot be written: ", 0), 0u) << error;
 }
@@ -144,22 +106,13 @@ TEST_F(RankFile, on_a_full_disk_is_told_on_all_ranks) {
 // The last rank alone may write no more than 40 bytes into a file.
 TEST_F(RankFile, that_one_rank_cannot_write_is_told_on_all_ranks) {
   const int last = number_of_ranks() - 1;
-  const std::vector<char> text = text_of(1000);
+  const std::string text = text_of(1000);
   const std::uint64_t each = 1000 / static_cast<std::uint64_t>(number_of_ranks());
   const std::uint64_t from = each * static_cast<std::uint64_t>(rank_of_this());
   const std::vector<FilePiece> pieces = {
       {from, text.data() + from, rank_of_this() == last ? 1000 - from : each}};
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  const auto former = std::signal(SIGXFSZ, SIG_IGN);
-  MPI_Barrier(MPI_COMM_WORLD);
-  if (rank_of_this() == last) {
-    const rlimit small{from + 40, before.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &small);
-  }
-  const std::string error = error_of(path_, pieces);
-  setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, former);
+  std::string error;
+  with_small_files(last, from + 40, [&] { error = error_of(path_, pieces); });
   expect_on_all_ranks(error, path_, "cannot be written: File too large",
                       "(rank " + std::to_string(last) + ")");
   MPI_Barrier(MPI_COMM_WORLD);
@@ -168,7 +121,7 @@ TEST_F(RankFile, that_one_rank_cannot_write_is_told_on_all_ranks) {
 }
 
 TEST_F(RankFile, with_a_gap_or_an_overlap_is_refused_on_all_ranks) {
-  const std::vector<char> text = text_of(300);
+  const std::string text = text_of(300);
   std::vector<FilePiece> gap = pieces_of(text, 10), twice = gap, late = gap;
   if (rank_of_this() == number_of_ranks() - 1) {
     gap.pop_back();
@@ -182,7 +135,7 @@ TEST_F(RankFile, with_a_gap_or_an_overlap_is_refused_on_all_ranks) {
 }
 
 TEST_F(RankFile, runs_are_told_alike_and_neighbours_are_joined) {
-  const std::vector<char> text = text_of(60);
+  const std::string text = text_of(60);
   // Rank r holds bytes 10 r ... 10 r + 10 in two pieces; the last one all that is left.
   const std::uint64_t r = static_cast<std::uint64_t>(rank_of_this()), last = number_of_ranks() - 1;
   if (last > 4) GTEST_SKIP() << "sixty bytes";

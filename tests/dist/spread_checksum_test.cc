@@ -1,34 +1,16 @@
 #include "dist/spread_checksum.h"
 
-#include <gtest/gtest.h>
 #include <xxhash.h>
 
 #include <stdexcept>
 #include <string>
 
+#include "on_ranks.h"
+
 using namespace platen::dist;
+using namespace platen::dist::testing;
 
 namespace {
-
-int rank_of_this() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
-
-int number_of_ranks() {
-  int size = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
-  return size;
-}
-
-std::string text_of(std::size_t length) {
-  std::string text(length, ' ');
-  unsigned state = static_cast<unsigned>(length) + 3;
-  for (char &c : text)
-    c = static_cast<char>((state = state * 1664525u + 1013904223u) >> 24);
-  return text;
-}
 
 // Pieces of `length` bytes in turn to the ranks, the first to rank `from`.
 std::vector<FilePiece> in_turn(const std::string &text, std::size_t length, int from) {

@@ -1,16 +1,11 @@
 // Faults on purpose, each of one rank: must_fail.cmake wants them seen.
-#include <gtest/gtest.h>
-#include <mpi.h>
-
 #include <stdexcept>
+
+#include "tests/dist/on_ranks.h"
 
 namespace {
 
-int rank() {
-  int number = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &number);
-  return number;
-}
+const auto rank = platen::dist::testing::rank_of_this;
 
 TEST(Faults, on_rank_1) {
   EXPECT_NE(rank(), 1);
