@@ -73,24 +73,12 @@ double error_of_wave(int degree, int n) {
 }
 
 // Error in L2 falls as h^(degree + 1) on distorted cells.
-TEST(elastic_model, linear_elements_are_of_second_order) {
-  double before = error_of_wave(1, 3), order = 0;
-  for (const int n : {6, 12, 24}) {
-    const double error = error_of_wave(1, n);
-    order = std::log2(before / error);
-    before = error;
+TEST(elastic_model, linear_and_quadratic_elements_are_of_second_and_third_order) {
+  for (const int degree : {1, 2}) {
+    const int finest = degree == 1 ? 24 : 8;
+    const double order = std::log2(error_of_wave(degree, finest / 2) / error_of_wave(degree, finest));
+    EXPECT_NEAR(order, degree + 1, 0.1) << degree;
   }
-  EXPECT_NEAR(order, 2.0, 0.1);
-}
-
-TEST(elastic_model, quadratic_elements_are_of_third_order) {
-  double before = error_of_wave(2, 2), order = 0;
-  for (const int n : {4, 8}) {
-    const double error = error_of_wave(2, n);
-    order = std::log2(before / error);
-    before = error;
-  }
-  EXPECT_NEAR(order, 3.0, 0.1);
 }
 
 // A linear displacement on the boundary is taken up exactly inside, and its stress is even.
@@ -107,7 +95,9 @@ TEST(elastic_model, passes_the_patch_test_on_distorted_cells) {
       for (std::size_t i = 0; i < x.size(); ++i)
         if (fixed[i][0]) x[i] = linear(model.nodes[i]);
       const std::vector<Vector3> none(x.size(), Vector3{});
-      StaticEquations(model.stiffness, model.nodes, fixed, kind).solve(model.stiffness, none, x);
+      const StaticEquations equations(model.stiffness, model.nodes, fixed, kind);
+      equations.solve(model.stiffness, none, x);
+      EXPECT_EQ(equations.iterations() > 1, kind == LinearSolver::multigrid);
       double worst = 0;
       for (std::size_t i = 0; i < x.size(); ++i)
         worst = std::max(worst, norm(x[i] - linear(model.nodes[i])));
@@ -266,28 +256,6 @@ TEST(elastic_model, every_node_of_the_boundary_is_a_vertex) {
     for (const Vector3 &p : model.nodes)
       low += p[2] == -0.01;
     EXPECT_EQ(nodes_on(model, low_end_tag).size(), low);
-  }
-}
-
-TEST(elastic_model, multigrid_and_factors_agree) {
-  for (const int degree : {1, 2}) {
-    const ElasticModel model = make_elastic_model(
-        make_grid(CylinderPlate{0.03, 0.02, 0, 8, 1}, {{0.002, 1}, {0.018, 2}}), degree, {rubber, steel});
-    const auto load = body_load(model, [](const Vector3 &p) { return Vector3{1e6 * p[1], 2e5, 3e7 * p[0]}; });
-    const Fixed fixed = held_on(model, {high_end_tag});
-    std::vector<Vector3> by_factors(load.size(), Vector3{}), by_multigrid = by_factors;
-    StaticEquations(model.stiffness, model.nodes, fixed, LinearSolver::direct)
-        .solve(model.stiffness, load, by_factors);
-    const StaticEquations multigrid(model.stiffness, model.nodes, fixed, LinearSolver::multigrid);
-    multigrid.solve(model.stiffness, load, by_multigrid);
-    EXPECT_GT(multigrid.iterations(), 1);
-    double size = 0, difference = 0;
-    for (std::size_t i = 0; i < load.size(); ++i) {
-      size = std::max(size, norm(by_factors[i]));
-      difference = std::max(difference, norm(by_factors[i] - by_multigrid[i]));
-    }
-    EXPECT_LT(difference, 1e-10 * size) << degree;
-    EXPECT_GT(size, 0);
   }
 }
 

@@ -1,53 +1,12 @@
-// State, surface and picture of a solid at finite strain.
+// Surface and refusals of a solid at finite strain.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
-#include <sstream>
 
-#include "base/parallel.h"
 #include "tests/fem/rubber_sleeve.h"
-#include "tests/same_state.h"
 
 namespace platen::fem {
 namespace {
-
-bool same(const std::vector<Vector3> &a, const std::vector<Vector3> &b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vector3)) == 0;
-}
-
-TEST(hyperelastic_solid, a_resumed_run_is_the_same_to_the_last_bit) {
-  HyperelasticSolid one = held_sleeve(2e4), other = held_sleeve(0);
-  one.set_damping(50), other.set_damping(50);
-  const double dt = 0.5 * one.stable_step();
-  one.set_prescribed_velocity(1, {0, 0, -0.3}, {0.1, 0.2, 5}, {0, 0, 0.06});
-  step(one, dt, 40);
-  one.add_surface_force(3, {1, -2, 0.5});
-  step(one, dt, 7);
-  set_state(other, state_of(one));
-  EXPECT_TRUE(same_state(one, other));
-  EXPECT_TRUE(same(one.surface().vertices, other.surface().vertices));
-  EXPECT_TRUE(same(one.surface().velocities, other.surface().velocities));
-  step(one, dt, 40), step(other, dt, 40);
-  EXPECT_TRUE(same_state(one, other));
-  EXPECT_EQ(one.internal_energy(), other.internal_energy());
-  EXPECT_THROW(set_state(other, State()), StateError);
-}
-
-TEST(hyperelastic_solid, the_number_of_threads_changes_no_bit) {
-  State state[2];
-  double energy[2], limit[2];
-  for (const int threads : {1, 2}) {
-    const ThreadLimit fixed(threads);
-    HyperelasticSolid solid = held_sleeve(2e4);
-    limit[threads - 1] = solid.stable_step();
-    step(solid, 0.5 * limit[threads - 1], 50);
-    state[threads - 1] = state_of(solid), energy[threads - 1] = solid.internal_energy();
-  }
-  EXPECT_TRUE(same_state(state[0], state[1]));
-  EXPECT_EQ(energy[0], energy[1]);
-  EXPECT_EQ(limit[0], limit[1]);
-}
 
 // Only the inner face is seen, and it looks at the axis; loads come back as tractions.
 TEST(hyperelastic_solid, particles_see_the_inner_face_alone) {
@@ -89,19 +48,6 @@ TEST(hyperelastic_solid, senseless_requests_are_refused) {
   EXPECT_THROW(solid.set_damping(-1), std::invalid_argument);
   EXPECT_THROW(sleeve({0, rubber.law}), std::invalid_argument);
   EXPECT_THROW(sleeve({1100, {1e6, -1}}), std::invalid_argument);
-}
-
-TEST(hyperelastic_solid, the_picture_names_its_fields_and_repeats) {
-  HyperelasticSolid solid = sleeve();
-  solid.set_displacement(bent(solid));
-  std::ostringstream first, second;
-  solid.write_vtu(first);
-  solid.write_vtu(second, std::vector<double>(solid.surface().vertices.size(), 0.0));
-  for (const char *field : {"\"displacement\"", "\"stress\"", "\"von_mises\"", "\"pressure\"", "\"J\"",
-                            "\"contact_pressure\"", "\"contact_shear\"", "\"slip\"", "compressor=\"vtkZLib"})
-    EXPECT_NE(first.str().find(field), std::string::npos) << field;
-  EXPECT_EQ(first.str(), second.str());
-  EXPECT_THROW(solid.write_vtu(first, {1.0}), std::invalid_argument);
 }
 
 } // namespace
