@@ -82,10 +82,7 @@ SideAsk back() {
 class LoadsOfStages : public testing::Test {
 protected:
   void add(const std::vector<SideAsk> &asks) {
-    StageSettings stage;
-    stage.asks = asks;
-    stage.until = {{Until::Reached::time, 1e-3}};
-    stages_.push_back(stage);
+    stages_.push_back(asking(asks, {{Until::Reached::time, 1e-3}}));
   }
   std::unique_ptr<PlatenTest> made(bool boxed = false) const {
     PlatenTestSettings s;

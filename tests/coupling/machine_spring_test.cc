@@ -1,5 +1,5 @@
-// A platen on the spring of its machine: oscillation and decay, its stable step, springs in series, and what
-// falls by itself.
+// The spring of a machine: oscillation and decay, its stable step, and what falls by itself. Behind platens:
+// machine_platens_test.cc.
 #include "coupling/boundaries/machine_spring.h"
 
 #include <gtest/gtest.h>
@@ -138,72 +138,6 @@ TEST(machine_spring, what_is_no_spring_is_refused) {
   EXPECT_THROW(PlatenTest(sphere(), one_sphere(-1)), BadParameter);
   EXPECT_THROW(MachineSpring({k, 0, 0.1}), BadParameter);
   EXPECT_THROW(MachineSpring({k, m, 1.1}), BadParameter);
-}
-
-TEST(machine_spring, is_in_series_with_the_specimen_and_rigid_where_it_is_stiff) {
-  PlatenTest rigid(sphere(), one_sphere(not_given));
-  EXPECT_EQ(rigid.machine(), nullptr);
-  EXPECT_TRUE(std::isnan(rigid.machine_closure()));
-  advance_until(rigid, 2e-3);
-  EXPECT_NEAR(rigid.top().load() / rigid.bottom().closure() / contact, 1, 1e-3); // each half of the closure
-  for (const double machine : {0.01 * contact, 0.1 * contact, contact, 100 * contact}) {
-    PlatenTest test(sphere(), one_sphere(machine));
-    advance_until(test, 2e-3);
-    const double series = 1 / (1 / machine + 2 / contact), force = test.axial_stress() * test.nominal_area();
-    // The machine's dashpot bears what its spring is behind, 2 xi / w of its rate.
-    const double lag = 2 * 0.3 * std::sqrt(test.machine()->settings().mass / machine),
-                 rate = 0.01 * (1 - 2 * series / contact);
-    EXPECT_NEAR(force / (test.machine_closure() + lag * rate) / series, 1, 1e-3) << machine;
-    // What is left of the path is the specimen's.
-    EXPECT_NEAR(test.closure_strain() * 2e-3, 2 * force / contact, 2e-3 * force / contact) << machine;
-    const dem::EnergyLedger energy = test.energy();
-    EXPECT_NEAR(energy.boundary, 0.5 * series * test.machine_closure() * test.machine_closure(),
-                0.02 * energy.boundary)
-        << machine;
-    EXPECT_NEAR(energy.residual(), 0, 1e-4 * energy.boundary) << machine;
-  }
-}
-
-// The platen's mass on a spring that is much stiffer than its contact.
-TEST(machine_spring, sets_the_time_step_where_it_is_stiff) {
-  PlatenTestSettings settings = one_sphere(1e4 * contact);
-  settings.platens.damping = 0;
-  const PlatenTest test(sphere(), settings);
-  EXPECT_NE(test.time_step_reason().find("spring of the machine"), std::string::npos);
-  const double mass = test.top().body().mass();
-  EXPECT_EQ(test.machine()->settings().mass, mass);
-  EXPECT_NEAR(test.time_step(), 0.8 * 2 * std::sqrt(mass / (1e4 * contact)), 2e-3 * test.time_step());
-}
-
-// The top platen holds its stress through the spring, without a swing.
-TEST(machine_spring, a_servo_holds_its_stress_through_it) {
-  for (const double machine : {0.03 * contact, contact}) {
-    PlatenTestSettings settings = one_sphere(machine);
-    settings.platens.machine.damping = 0.1;
-    settings.loading.servo = true;
-    settings.loading.top_stress = 2e6;
-    settings.loading.rate = 1;
-    settings.loading.ramp = 2e-3;
-    settings.loading.hold = 8e-3;
-    PlatenTest test(sphere(), settings);
-    double most = 0;
-    while (!test.program().finished()) {
-      ASSERT_GT(test.advance(10), 0);
-      most = std::max(most, test.stress_top());
-    }
-    EXPECT_NEAR(test.stress_top() / 2e6, 1, 0.01) << machine;
-    EXPECT_LT(most, 1.05 * 2e6) << machine;
-    EXPECT_NEAR(test.energy().residual(), 0, 1e-3 * test.energy().boundary) << machine;
-  }
-}
-
-// What else does not go with it is in faults_test.cc.
-TEST(machine_spring, a_mass_below_that_of_its_platen_is_refused) {
-  for (const PlatenKind &kind : {rigid_kind, yielding}) {
-    PlatenTestSettings settings = with(one_sphere(1e7), kind);
-    settings.platens.machine.mass = 1e-6;
-    expect_refused(sphere(), settings, "platens.machine.mass", "at least");
-  }
 }
 
 } // namespace
