@@ -183,7 +183,7 @@ TEST(platen_layers, a_given_mesh_of_the_same_plate_presses_alike) {
   for (const PlatenTestSettings &made : {rigid, yields, of_layers}) {
     PlatenTestSettings given = made;
     const bool has_layers = made.platens.elastic && !made.platens.elastic->layers.empty();
-    const fem::CylinderPlate plate{radius, 4e-3, 3, made.platens.elements_across, 2};
+    const fem::CylinderPlate plate{radius, 4e-3, has_layers ? 14e-3 : 3, made.platens.elements_across, 2};
     // Material 0 at the low end, which faces the specimen.
     given.platens.top.grid = made.platens.elastic
                                  ? fem::make_grid(plate, elements_of_layers(made.platens, Side::top, radius))
@@ -198,7 +198,7 @@ TEST(platen_layers, a_given_mesh_of_the_same_plate_presses_alike) {
     EXPECT_NEAR(other.stress_top() / one.stress_top(), 1, has_layers ? 1e-6 : 1e-4);
     EXPECT_NEAR(other.stress_bottom() / one.stress_bottom(), 1, 1e-4);
     EXPECT_NEAR(other.closure_strain() / one.closure_strain(), 1, 1e-4);
-    EXPECT_EQ(one.top().body().mass(), other.top().body().mass());
+    EXPECT_NEAR(one.top().body().mass(), other.top().body().mass(), 1e-9 * one.top().body().mass());
     if (!has_layers) continue;
     given.platens.top.layers.pop_back();
     expect_refused(cylinder(), given, "platens.top.grid",

@@ -1,6 +1,6 @@
 // An elastic solid whose clamp slides by itself, as on the spring of a machine: its momentum is what was
 // given to it, and its energy balance closes. That it swings with all of its mass is in
-// coupling/machine_platens_test.cc.
+// coupling/machine_spring_test.cc.
 #include <gtest/gtest.h>
 
 #include <algorithm>
