@@ -229,11 +229,24 @@ TEST(contact_plate, parameters_out_of_range_are_refused_by_name) {
     return "";
   };
   using C = SurfaceContact;
+  using By = dem::Weakening::By;
   const double none = std::nan("");
   const std::vector<std::pair<std::string, std::function<void(C &)>>> all{
       {"particle stiffness", [&](C &c) { c.particle_stiffness = none; }},
       {"static friction", [](C &c) { c.friction_static = -0.1; }},
       {"dynamic friction", [](C &c) { c.friction_dynamic = -0.1; }},
+      {"slip length",
+       [](C &c) {
+         c.friction_dynamic = 0.2, c.weakening = {By::slip, 0, 1};
+       }},
+      {"slip velocity",
+       [](C &c) {
+         c.friction_dynamic = 0.2, c.weakening = {By::velocity, 1, 0};
+       }},
+      {"static one",
+       [](C &c) {
+         c.friction_dynamic = 0.5, c.weakening = {By::slip, 1e-3, 0};
+       }},
       {"damping", [](C &c) { c.damping = -1; }},
       {"skin", [](C &c) { c.skin = 0; }},
       {"one entry per face", [](C &c) { c.face_compliance.resize(1); }}, // a box has six faces

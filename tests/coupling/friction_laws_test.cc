@@ -293,17 +293,5 @@ TEST(friction_law, a_layer_hands_the_slip_from_step_to_step) {
               1e-3 * scene.layer.friction_work);
 }
 
-TEST(friction_law, what_makes_no_sense_is_refused) {
-  const dem::Particles particles(spheres({{0, 0, 1.5 * sphere_radius}}), 2500, false);
-  const fem::RigidBody body = plate(0.01, 4);
-  const auto refused = [&](SurfaceContact contact, const dem::Weakening &weakening) {
-    contact.weakening = weakening;
-    EXPECT_THROW(ContactLayer(particles, body, contact), std::invalid_argument);
-  };
-  refused(frictional(0.5, 0.2), {dem::Weakening::By::slip, 0, 1});
-  refused(frictional(0.5, 0.2), {dem::Weakening::By::velocity, 1, 0});
-  refused(frictional(0.2, 0.5), {dem::Weakening::By::slip, 1e-3, 0});
-}
-
 } // namespace
 } // namespace platen::coupling
