@@ -243,7 +243,7 @@ TEST(contact_plate, parameters_out_of_range_are_refused_by_name) {
        [](C &c) {
          c.friction_dynamic = 0.2, c.weakening = {By::velocity, 1, 0};
        }},
-      {"static one",
+      {"must not grow",
        [](C &c) {
          c.friction_dynamic = 0.5, c.weakening = {By::slip, 1e-3, 0};
        }},

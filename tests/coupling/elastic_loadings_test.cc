@@ -52,6 +52,14 @@ TEST(elastic_loadings, stiff_platens_press_as_rigid_ones) {
   expect_stiff_is_rigid("in_a_wall", cylinder(), walled(), 1500);
 }
 
+double face_area(const Platen &platen, int tag) { // m^2
+  double area = 0;
+  const fem::SurfaceMesh &surface = platen.body().surface();
+  for (std::size_t f = 0; f < surface.faces.size(); ++f)
+    if (surface.face_tags[f] == tag) area += norm(fem::face_area_vector(surface, f));
+  return area;
+}
+
 // Without lateral strain of the platen an even load moves its face evenly, so that by Betti the mean of the
 // face goes by F sum t / (E A) under any load: pulled too, of many layers, or of strips with sheets.
 TEST(elastic_loadings, platens_give_way_by_their_thicknesses_over_their_moduli) {
@@ -74,17 +82,15 @@ TEST(elastic_loadings, platens_give_way_by_their_thicknesses_over_their_moduli) 
                                        {strips, 0.5e-3 / 2e9 + 1.5e-3 / 10e9}}) {
     const bool bends = s.platens.span > 0;
     PlatenTest test(bends ? bar() : block(), s);
+    const double areas[2] = {face_area(test.bottom(), fem::high_end_tag),
+                             face_area(test.top(), fem::low_end_tag)};
     advance_to(test, 1500);
     for (Platen *platen : {&test.top(), &test.bottom()}) {
       auto &solid = static_cast<fem::ElasticSolid &>(platen->body());
-      const bool top = platen == &test.top();
+      const double area = areas[platen == &test.top()];
       const double load = platen->load();
       ASSERT_GT((s.loading.tension ? -1 : 1) * load, 1);
       solid.aim(solid.contact_loads(), 0); // the shape under the loads of now
-      double area = 0;                     // m^2, of the face
-      for (std::size_t f = 0; f < solid.surface().faces.size(); ++f)
-        if (solid.surface().face_tags[f] == (top ? fem::low_end_tag : fem::high_end_tag))
-          area += norm(fem::face_area_vector(solid.surface(), f));
       const double yielded = dot(solid.displacement(), platen->inward()) - platen->closure();
       EXPECT_NEAR(yielded / (load * flexibility / area), 1, 1e-6) << platen->name() << bends;
     }
