@@ -127,7 +127,8 @@ struct Held {
   std::string what;
   const dem::Specimen &(*specimen)();
   PlatenTestSettings settings;
-  double within = 0.01; // of the stress, in the last fifth of the hold
+  double within = 0.01;  // of the stress, in the last fifth of the hold
+  double missing = 5e-3; // of the work, in the energy balance
 };
 // On steel and on sheets a hundred times softer, through the spring of the machine, on a platen that turns.
 std::vector<Held> held_stresses() {
@@ -149,11 +150,11 @@ std::vector<Held> held_stresses() {
     s.platens.machine.damping = 0.1;
     s.loading.servo = true;
     s.loading.top_stress = 2e6, s.loading.rate = 1, s.loading.ramp = 2e-3, s.loading.hold = 8e-3;
-    all.push_back({"machine " + std::to_string(machine), sphere, s});
+    all.push_back({"machine " + std::to_string(machine), sphere, s, 0.01, 1e-3});
   }
   PlatenTestSettings s = with(held_at(2e6), on_seat);
   s.loading.ramp = 4e-4, s.loading.hold = 2e-4, s.loading.rate = 0.5;
-  all.push_back({"seat", cylinder, s, 0.02});
+  all.push_back({"seat", cylinder, s, 0.02, 2e-3});
   return all;
 }
 
@@ -171,7 +172,7 @@ TEST(elastic_loadings, a_servo_holds_its_stress_whatever_it_acts_through) {
     EXPECT_TRUE(test.program().finished()) << held.what;
     EXPECT_LT(farthest, held.within) << held.what;
     EXPECT_LT(most, 1.05) << held.what;
-    EXPECT_LT(residual(test), 2e-3) << held.what;
+    EXPECT_LT(residual(test), held.missing) << held.what;
     if (held.settings.platens.elastic) {
       EXPECT_GT(clamp_closure(test), test.closure_strain() * test.shape().height) << held.what;
     }

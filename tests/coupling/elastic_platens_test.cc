@@ -204,7 +204,7 @@ TEST(platen_layers, a_given_mesh_of_the_same_plate_presses_alike) {
     expect_refused(cylinder(), given, "platens.top.grid",
                    "has 3 physical volumes: there are 2 layers in `platens.top.layers`");
     given.platens.top.layers.clear(), given.platens.elastic->layers.clear();
-    expect_refused(cylinder(), given, "platens.elastic.pad_modulus");
+    expect_refused(cylinder(), given, "platens.top.grid", "the second needs `platens.elastic.pad_modulus`");
   }
 }
 

@@ -69,8 +69,8 @@ TEST(grids, ends_are_flat_to_the_last_bit_and_tagged) {
       low = std::min(low, v[2]), high = std::max(high, v[2]);
     int ends[2] = {0, 0};
     for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-      if (surface.face_tags[f] < low_end_tag) continue;
       const bool top = surface.face_tags[f] == high_end_tag;
+      if (!top && surface.face_tags[f] != low_end_tag) continue;
       ++ends[top];
       for (const int v : surface.faces[f])
         EXPECT_EQ(surface.vertices[static_cast<std::size_t>(v)][2], top ? high : low) << name;
