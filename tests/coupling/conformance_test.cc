@@ -60,8 +60,7 @@ void add_kinds(std::vector<Arrangement> &all) {
         s.platens.top.weakening = {dem::Weakening::By::slip, 1e-6, 0};
         s.platens.bottom.weakening = {dem::Weakening::By::velocity, 0, 0.1};
       }
-      // At 800 the time step is about to be chosen anew.
-      add(machine < 1e8 ? "soft_machine_" : "stiff_machine_", kind, s, 2e-3, {800, 1300}, 1300, 100);
+      add(machine < 1e8 ? "soft_machine_" : "stiff_machine_", kind, s, 2e-3, {813, 1300}, 1300, 100);
     }
     for (const bool sleeve : {false, true}) {
       if (!sleeve && kind.elastic && !kind.seat) continue;

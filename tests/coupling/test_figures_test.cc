@@ -133,5 +133,41 @@ TEST(platen_test, steps_in_one_go_are_the_same_as_one_by_one) {
   EXPECT_GT(strains.back(), strains.front());
 }
 
+// Grain contacts that are near, platen contacts that are closed.
+std::size_t contacts_closed(const PlatenTest &test) {
+  std::size_t sum = test.model.contacts->table.size();
+  for (const auto &boundary : test.boundaries())
+    sum += boundary->closed();
+  return sum;
+}
+
+// The time step is chosen anew every 400 steps where contacts have closed; a run that is resumed just there
+// has not touched anything yet.
+TEST(platen_test, a_run_resumed_where_the_step_is_chosen_goes_on_the_same) {
+  const dem::Specimen &specimen = cylinder();
+  PlatenTestSettings slow = with_weight();
+  slow.loading.rate = 0.3; // few contacts close between two choices
+  PlatenTest run(specimen, slow);
+  const auto near_at_choice = [](const PlatenTest &problem) {
+    return rows_of<std::size_t>(state_of(problem), "state/near_at_choice").front();
+  };
+  int choices = 0;
+  for (int part = 0; part < 8; ++part) {
+    run.advance(400 - run.steps() % 400);
+    while (run.steps() % 400 != 0)
+      run.advance(400 - run.steps() % 400);
+    PlatenTest resumed(specimen, slow);
+    set_state(resumed, state_of(run));
+    EXPECT_EQ(contacts_closed(run), contacts_closed(resumed));
+    EXPECT_GT(contacts_closed(resumed), 0u);
+    const std::size_t before = near_at_choice(run);
+    run.step();
+    resumed.step();
+    choices += near_at_choice(run) != before;
+    EXPECT_TRUE(same_state(run, resumed)) << run.steps();
+  }
+  EXPECT_GT(choices, 0);
+}
+
 } // namespace
 } // namespace platen::coupling
