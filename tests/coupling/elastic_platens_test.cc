@@ -157,6 +157,49 @@ TEST(platen_layers, that_cannot_be_are_refused_by_name) {
   EXPECT_NE(refusal(cylinder(), s).find("Poisson ratio"), std::string::npos);
 }
 
+// Without Poisson's ratio an even traction shortens layers by p sum t / E, the same everywhere on the face.
+// So by Betti any loads move the mean of the face by their sum times sum t / (E A), exactly.
+TEST(platen_layers, yield_as_springs_in_series) {
+  constexpr double side = 12e-3, thickness = 8e-3;
+  for (const ElasticPlatens &with :
+       {ElasticPlatens{}, [] {
+          ElasticPlatens p;
+          p.layers = {{1e-3, {1100, 5e6, 0}}, {2e-3, {2700, 70e9, 0}}, {0.5e-3, {2200, 0.5e9, 0}}};
+          return p;
+        }()}) {
+    PlatenSettings p = layered(thickness).platens;
+    p.elastic = with;
+    p.elastic->motion = fem::ElasticMotion::quasi_static;
+    p.material.poisson_ratio = 0;
+    double flexibility = 0; // m/N
+    for (const PlatenLayer &layer : layers_of(p, Side::top))
+      flexibility += layer.thickness / (layer.material.young_modulus * side * side);
+    const fem::BoxPlate plate{{0, 0, 0}, {side, side, thickness}, {4, 4, 1}};
+    fem::ElasticOptions options;
+    options.motion = p.elastic->motion;
+    fem::ElasticSolid solid(fem::make_grid(plate, elements_of_layers(p, Side::top, 0.5 * side)),
+                            materials_of(p, Side::top), fem::Clamp{}, options);
+    std::vector<Vector3> loads(solid.surface().vertices.size());
+    std::vector<double> weights(loads.size(), 0.0);
+    double sum = 0;
+    for (std::size_t f = 0; f < solid.surface().faces.size(); ++f)
+      if (solid.surface().face_tags[f] == fem::low_end_tag)
+        for (const int v : solid.surface().faces[f])
+          weights[static_cast<std::size_t>(v)] += 0.25 / 16;
+    for (std::size_t v = 0; v < loads.size(); ++v) {
+      if (weights[v] == 0) continue;
+      loads[v].z = 10 + 2000 * solid.surface().vertices[v].x;
+      sum += loads[v].z;
+    }
+    const std::vector<Vector3> before = solid.surface().vertices;
+    solid.aim(loads, 0);
+    double mean = 0;
+    for (std::size_t v = 0; v < loads.size(); ++v)
+      mean += weights[v] * (solid.surface().vertices[v].z - before[v].z);
+    EXPECT_NEAR(mean, sum * flexibility, 1e-8 * mean);
+  }
+}
+
 // A pad is one more way to say two layers, to the last bit.
 TEST(platen_layers, a_pad_is_two_layers) {
   for (const int degree : {1, 2}) {
