@@ -38,6 +38,9 @@ void expect_told(const Task &task, const Seen &within, const Seen &beyond, const
   EXPECT_NEAR(near->reached / told.reached, 1, 1e-12) << told.quantity;
   EXPECT_TRUE(near->is_met()) << told.quantity << ' ' << near->reached;
   EXPECT_FALSE(far->is_met()) << told.quantity << ' ' << far->reached;
+  if (told.quantity != "stress") return;
+  EXPECT_TRUE(task.has_settled(within));
+  EXPECT_FALSE(task.has_settled(beyond));
 }
 
 TEST(controlled, a_stress_is_met_within_a_hundredth) {
@@ -45,6 +48,8 @@ TEST(controlled, a_stress_is_met_within_a_hundredth) {
               {"stress", "top", "Pa", 2, false, 5e6, 4.951e6});
   expect_told(*stress_on_top(5e6, 0), at(1, 5.049e6, 0), at(1, 5.051e6, 0),
               {"stress", "top", "Pa", 2, false, 5e6, 5.049e6});
+  expect_told(*stress_on_top(-5e6, 0), at(1, -4.951e6, 0), at(1, -4.949e6, 0),
+              {"stress", "top", "Pa", 2, false, -5e6, -4.951e6}); // pulled
 }
 
 TEST(controlled, a_share_is_told_as_the_stress_that_it_asks) {

@@ -1,5 +1,5 @@
-// Elastic platens in every test there is: stiff ones are rigid ones, soft ones are in series, force and
-// moment are those of the grains, and a stress is held.
+// Elastic platens in every test there is: stiff ones are rigid ones, soft ones are in series, and a stress is
+// held.
 #include "tests/coupling/set_ups.h"
 
 #include <algorithm>
@@ -41,26 +41,14 @@ void expect_stiff_is_rigid(const std::string &what, const dem::Specimen &specime
 }
 
 TEST(elastic_loadings, stiff_platens_press_as_rigid_ones) {
-  expect_stiff_is_rigid("pressed", cylinder(), smooth(), 1500);
-}
-
-TEST(elastic_loadings, stiff_glued_platens_pull_as_rigid_ones) {
-  expect_stiff_is_rigid("pulled", cylinder(), pulled(), 1500);
   PlatenTestSettings seated = pulled();
   seated.seat = true; // grains give moments too
+  expect_stiff_is_rigid("pressed", cylinder(), smooth(), 1500);
+  expect_stiff_is_rigid("pulled", cylinder(), pulled(), 1500);
   expect_stiff_is_rigid("pulled_by_seats", cylinder(), seated, 1500);
-}
-
-TEST(elastic_loadings, stiff_strips_bend_a_bar_as_rigid_ones) {
   expect_stiff_is_rigid("bent", bar(), bent(), 1500);
-}
-
-TEST(elastic_loadings, stiff_strips_and_platens_split_a_disc_as_rigid_ones) {
   expect_stiff_is_rigid("split_by_strips", disc(), split(1.5e-3), 1500);
   expect_stiff_is_rigid("split_by_platens", disc(), split(0), 1500);
-}
-
-TEST(elastic_loadings, stiff_platens_press_against_a_wall_as_rigid_ones) {
   expect_stiff_is_rigid("in_a_wall", cylinder(), walled(), 1500);
 }
 
@@ -112,26 +100,6 @@ TEST(elastic_loadings, soft_glued_platens_are_in_series_with_the_specimen) {
   }
 }
 
-TEST(elastic_loadings, all_sides_press_alike_between_stiff_platens_as_between_rigid_ones) {
-  for (const bool sleeve : {false, true}) {
-    PlatenTestSettings rigid = hydrostatic(sleeve);
-    rigid.loading.cell->ramp = 0; // long enough for the servo
-    rigid.time_step.fixed_step = 5e-8;
-    PlatenTest reference(cylinder(), rigid);
-    advance_to_end(reference, 40000);
-    EXPECT_NEAR(reference.axial_stress(), 5e6, 5e4) << sleeve;
-    for (const ElasticMotion motion : both_motions) {
-      const bool still = motion == ElasticMotion::quasi_static;
-      PlatenTest test(cylinder(), elastic(rigid, motion, still ? 100 * steel : steel));
-      advance_to_end(test, 40000);
-      EXPECT_NEAR(test.axial_stress(), 5e6, 5e4) << sleeve << still;
-      EXPECT_NEAR(test.closure_strain() / reference.closure_strain(), 1, still ? 0.01 : 0.03)
-          << sleeve << still;
-      EXPECT_LT(residual(test), 5e-3) << sleeve << still;
-    }
-  }
-}
-
 // A bar on steel strips and one on strips with sheets of 2 GPa: these take a part of the deflection of the
 // clamps.
 TEST(elastic_loadings, sheets_on_strips_are_in_series_with_the_bar) {
@@ -161,56 +129,19 @@ TEST(elastic_loadings, sheets_on_strips_are_in_series_with_the_bar) {
   EXPECT_LT(yielded[0] / force[0], 0.1 * yielded[1] / force[1]);
 }
 
-// What held grains get of force and moment is what platens get the other way: by the trapezoid exactly, as
-// velocity Verlet has it.
-TEST(elastic_loadings, force_and_moment_of_held_grains_are_those_on_the_platens) {
-  for (const ElasticMotion motion : both_motions) {
-    PlatenTestSettings s = elastic(pulled(), motion, 20e9);
-    s.seat = true;
-    s.platens.damping = 0.2;
-    PlatenTest test(cylinder(), s);
-    advance_to(test, 300);
-    const auto momenta = [&] {
-      const dem::Particles &p = test.model.particles;
-      std::array<Vector3, 2> sum{};
-      for (std::size_t i = 0; i < p.size(); ++i) {
-        const Vector3 momentum = p.mass[i] * p.velocity[i];
-        sum[0] += momentum;
-        const double inertia = 0.4 * p.mass[i] * p.radius[i] * p.radius[i];
-        sum[1] += cross(p.position[i], momentum) + inertia * (*p.angular_velocity)[i];
-      }
-      return sum;
-    };
-    const auto loads = [&] {
-      return std::array<Vector3, 2>{test.top().force() + test.bottom().force(),
-                                    test.top().body().moment({}) + test.bottom().body().moment({})};
-    };
-    const std::array<Vector3, 2> begun = momenta();
-    std::array<Vector3, 2> impulse{}, before = loads();
-    double passed = 0; // N m s, however they cancel
-    for (int k = 0; k < 300; ++k) {
-      test.step();
-      const std::array<Vector3, 2> now = loads();
-      for (std::size_t j = 0; j < 2; ++j)
-        impulse[j] += 0.5 * test.time_step() * (before[j] + now[j]);
-      passed += test.time_step() * std::abs(test.top().force()[2]);
-      before = now;
-    }
-    const std::array<Vector3, 2> ended = momenta();
-    const double arm = cylinder().shape.radius;
-    EXPECT_LT(norm(ended[0] - begun[0] + impulse[0]), 1e-9 * passed);
-    EXPECT_LT(norm(ended[1] - begun[1] + impulse[1]), 1e-9 * passed * arm);
-    EXPECT_GT(norm(impulse[1]), 1e-6 * passed * arm); // there is a moment to be missed
-    EXPECT_LT(residual(test), 5e-3) << static_cast<int>(motion);
-  }
-}
-
-// Against steel and on sheets a hundred times softer.
-TEST(elastic_loadings, a_servo_holds_its_stress_on_platens_that_yield) {
-  constexpr double asked = 5e6;
+struct Held {
+  std::string what;
+  const dem::Specimen &(*specimen)();
+  PlatenTestSettings settings;
+  double within = 0.01;  // of the stress, in the last fifth of the hold
+  double missing = 5e-3; // of the work, in the energy balance
+};
+// On steel and on sheets a hundred times softer, through the spring of the machine, on a platen that turns.
+std::vector<Held> held_stresses() {
+  std::vector<Held> all;
   for (const ElasticMotion motion : both_motions)
     for (const bool pad : {false, true}) {
-      PlatenTestSettings s = elastic(held_at(asked), motion, steel);
+      PlatenTestSettings s = elastic(held_at(5e6), motion, steel);
       s.loading.ramp = 1e-4; // some twenty transits of a wave, and a hundred to stand
       s.loading.hold = 5e-4;
       if (pad) {
@@ -218,18 +149,41 @@ TEST(elastic_loadings, a_servo_holds_its_stress_on_platens_that_yield) {
         s.platens.elastic->pad_thickness = 1e-3;
         s.platens.elastic->pad = {1200, 2e9, 0.3};
       }
-      PlatenTest test(cylinder(), s);
-      const double held_from = test.ramp() + 0.8 * s.loading.hold;
-      double farthest = 0;
-      while (!test.program().finished() && test.steps() < 60000) {
-        advance_to(test, test.steps() + 1);
-        if (test.time() > held_from) farthest = std::max(farthest, std::abs(test.stress_top() / asked - 1));
-      }
-      EXPECT_TRUE(test.program().finished());
-      EXPECT_LT(farthest, 0.01) << static_cast<int>(motion) << pad;
-      EXPECT_LT(residual(test), 5e-3) << static_cast<int>(motion) << pad;
-      EXPECT_GT(clamp_closure(test), test.closure_strain() * test.shape().height);
+      all.push_back({std::to_string(static_cast<int>(motion)) + (pad ? " on sheets" : ""), cylinder, s});
     }
+  for (const double machine : {0.03 * contact, contact}) {
+    PlatenTestSettings s = one_sphere(machine);
+    s.platens.machine.damping = 0.1;
+    s.loading.servo = true;
+    s.loading.top_stress = 2e6, s.loading.rate = 1, s.loading.ramp = 2e-3, s.loading.hold = 8e-3;
+    all.push_back({"machine " + std::to_string(machine), sphere, s, 0.01, 1e-3});
+  }
+  PlatenTestSettings s = with(held_at(2e6), on_seat);
+  s.loading.ramp = 4e-4, s.loading.hold = 2e-4, s.loading.rate = 0.5;
+  all.push_back({"seat", cylinder, s, 0.02, 2e-3});
+  return all;
+}
+
+TEST(elastic_loadings, a_servo_holds_its_stress_whatever_it_acts_through) {
+  for (const Held &held : held_stresses()) {
+    const double asked = held.settings.loading.top_stress;
+    PlatenTest test(held.specimen(), held.settings);
+    const double held_from = test.ramp() + 0.8 * held.settings.loading.hold;
+    double farthest = 0, most = 0;
+    while (!test.program().finished() && test.steps() < 200000) {
+      advance_to(test, test.steps() + 1);
+      most = std::max(most, test.stress_top() / asked);
+      if (test.time() > held_from) farthest = std::max(farthest, std::abs(test.stress_top() / asked - 1));
+    }
+    EXPECT_TRUE(test.program().finished()) << held.what;
+    EXPECT_LT(farthest, held.within) << held.what;
+    EXPECT_LT(most, 1.05) << held.what;
+    EXPECT_LT(residual(test), held.missing) << held.what;
+    if (held.settings.platens.elastic) {
+      EXPECT_GT(clamp_closure(test), test.closure_strain() * test.shape().height) << held.what;
+    }
+    EXPECT_EQ(test.top().body().rotation().w != 1, held.settings.platens.spherical_seat) << held.what;
+  }
 }
 
 } // namespace

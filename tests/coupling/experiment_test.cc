@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <thread>
 
 #include "base/parallel.h"
@@ -37,10 +38,7 @@ public:
     ++done.at(part);
     if (!particles.empty()) note("part " + std::to_string(part));
   }
-  void apply_forces(dem::Particles &, const Step &) override {
-    note("apply");
-    if (fails) throw std::runtime_error("no force");
-  }
+  void apply_forces(dem::Particles &, const Step &) override { pushing(); }
   void finish(const Step &) override { note("finish"); }
   double power_on_machine() const override { return power; }
   bool follows_others() const override { return follows; }
@@ -55,7 +53,8 @@ public:
   void describe(Archive &) override {}
 
   std::size_t parts = 3;
-  bool follows = false, finite = true, stiffer = false, fails = false;
+  bool follows = false, finite = true, stiffer = false;
+  std::function<void()> pushing = [this] { note("apply"); };
   std::vector<dem::GroundSpring> springs;
   double power = 0;
   StepLimit own;
@@ -115,7 +114,7 @@ TEST(experiment, forces_that_throw_on_the_way_to_a_start_leave_the_time_step) {
   ASSERT_GT(chosen, 0);
   ASSERT_LT(chosen, 1e-3);
   const std::vector<Vector3> still(s.experiment.model.particles.size());
-  s.b.fails = true;
+  s.b.pushing = [] { throw std::runtime_error("no force"); };
   EXPECT_THROW(s.experiment.carry(still, {}, std::vector<Vector3>(3)), std::runtime_error);
   EXPECT_EQ(s.experiment.time_step(), chosen);
 }
@@ -131,41 +130,22 @@ TEST(experiment, a_step_has_one_order_and_followers_drift_last) {
     EXPECT_EQ(boundary->done, std::vector<int>(3, 1)) << boundary->name(); // each part once
 }
 
-// Stays for a while with the particle that it pushes, and sees whether another one is there.
-class Lingering : public Noted {
-public:
-  Lingering(std::string name, Log &log, int particle, std::array<std::atomic<int>, 2> &at,
-            std::atomic<int> &met)
-      : Noted(std::move(name), log), particle_(particle), at_(at), met_(met) {
-    listed = {particle};
-  }
-  void apply_forces(dem::Particles &, const Step &) override {
-    if (++at_[static_cast<std::size_t>(particle_)] > 1) ++met_;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    --at_[static_cast<std::size_t>(particle_)];
-  }
-
-private:
-  int particle_;
-  std::array<std::atomic<int>, 2> &at_;
-  std::atomic<int> &met_;
-};
-
+// Each stays for a while with the particle that it pushes, and sees whether another one is there.
 TEST(experiment, boundaries_that_push_one_particle_take_turns) {
   const ThreadLimit limit(2);
-  Log log;
-  seen::Seen seen;
+  ThreeAround s;
   std::array<std::atomic<int>, 2> at{};
   std::atomic<int> met{0};
-  Experiment experiment(small_cylinder(), ThreeAround::settings(), TimeStepSettings{});
-  int count = 0;
-  for (const int particle : {0, 0, 1, 1, 0})
-    experiment.add(std::make_unique<Lingering>(std::string(1, static_cast<char>('a' + count++)), log,
-                                               particle, at, met));
-  std::vector<std::unique_ptr<Stage>> stages;
-  stages.push_back(std::make_unique<Counting>(1000));
-  experiment.begin(std::make_unique<Program>(seen, std::move(stages)));
-  experiment.advance(10);
+  for (const auto &[boundary, particle] : {std::pair{&s.a, 0}, {&s.b, 1}, {&s.c, 0}}) {
+    boundary->listed = {particle};
+    boundary->pushing = [&met, &here = at[static_cast<std::size_t>(particle)]] {
+      if (++here > 1) ++met;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      --here;
+    };
+  }
+  s.begin();
+  s.experiment.advance(10);
   EXPECT_EQ(met, 0);
 }
 

@@ -47,13 +47,40 @@ void press(Settings &s) {
   s.loading.cell.emplace().pressure = 1e6;
 }
 
-void weaken(Settings &s, dem::Weakening::By by) {
-  s.platens.top.friction_static = 0.5, s.platens.top.friction_dynamic = 0.3;
-  s.platens.top.weakening.by = by;
+void weaken(Settings &s, dem::Weakening::By by, double slip_length = not_given, double dynamic = 0.3) {
+  s.platens.top.friction_static = 0.5, s.platens.top.friction_dynamic = dynamic;
+  s.platens.top.weakening.by = by, s.platens.top.weakening.slip_length = slip_length;
 }
 
+void leave_bonds_out(Settings &s) {
+  s.model.bond.reset();
+}
+void pull(Settings &s) {
+  s.loading.tension = s.platens.glued = true;
+}
+void by_wave_transits(Settings &s) {
+  s.loading.rate = not_given, s.loading.wave_transits = 60;
+}
+void put_wall(Settings &s) {
+  s.loading.wall = true;
+}
+void start_strained(Settings &s) {
+  s.loading.start_strain = 1e-3;
+}
+
+std::function<void(Settings &)> unload_at(const std::vector<double> &strains) {
+  return [strains](Settings &s) { s.loading.unload_at = strains; };
+}
 void control_stress(Settings &s) {
   s.loading.servo = true, s.loading.top_stress = 1e6;
+}
+
+void ask_of_axis(Settings &s, SideGroup side, SideAsk::Ask ask, Until::Reached end) {
+  StageSettings &stage = s.loading.stages.emplace_back();
+  stage.name = "stage 1";
+  SideAsk &one = stage.asks.emplace_back();
+  one.side = side, one.ask = ask, one.value = 0.01;
+  stage.until = {{end, 0.01, SideGroup::axial}};
 }
 
 void expect_faults(const std::vector<Row> &rows, const Settings &sound, const dem::Shape &shape) {
@@ -79,6 +106,13 @@ void expect_faults(const std::vector<Row> &rows, const Settings &sound, const de
   }
 }
 
+// Member and reason of the only fault there is; empty: none.
+std::string fault_of(const Settings &settings, const dem::Shape &shape) {
+  const std::vector<Fault> found = faults(settings, &shape);
+  EXPECT_LE(found.size(), 1u);
+  return found.empty() ? "" : found[0].member + " " + found[0].reason;
+}
+
 TEST(Faults, friction_falls_while_it_slides) {
   using By = dem::Weakening::By;
   expect_faults(
@@ -89,50 +123,32 @@ TEST(Faults, friction_falls_while_it_slides) {
         [](Settings &s) { s.platens.bottom.friction_static = 0.3, s.platens.bottom.friction_dynamic = 0.4; }},
        {"platens.top.friction_law", "slip_length` > 0", [](Settings &s) { weaken(s, By::slip); }},
        {"platens.top.friction_law", "slip_velocity` > 0", [](Settings &s) { weaken(s, By::velocity); }},
-       {"", "", [](Settings &s) { weaken(s, By::slip), s.platens.top.weakening.slip_length = 1e-3; }},
+       {"", "", [](Settings &s) { weaken(s, By::slip, 1e-3); }},
        {"platens.top.friction_law", "nothing to fall to",
-        [](Settings &s) {
-          weaken(s, By::slip), s.platens.top.weakening.slip_length = 1e-3;
-          s.platens.top.friction_dynamic = 0.5;
-        }}},
+        [](Settings &s) { weaken(s, By::slip, 1e-3, 0.5); }}},
       cylinder(), dem::cylinder(0.02, 0.04));
 }
 
 TEST(Faults, a_machine_drives_what_it_can) {
   expect_faults(
       {{"loading.tension", "cannot pull", [](Settings &s) { s.loading.tension = true; }},
-       {"", "", [](Settings &s) { s.loading.tension = s.platens.glued = true; }},
+       {"", "", pull},
        {"loading.servo", "`loading.top_stress` > 0", [](Settings &s) { s.loading.servo = true; }},
        {"", "", control_stress},
-       {"loading.servo", "presses, but the test pulls",
-        [](Settings &s) { control_stress(s), s.loading.tension = s.platens.glued = true; }},
+       {"loading.servo", "presses, but the test pulls", [](Settings &s) { control_stress(s), pull(s); }},
        {"loading.rate_multiplier", "needs bonds",
-        [](Settings &s) { s.loading.rate_multiplier = 2, s.model.bond.reset(); }},
+        [](Settings &s) { s.loading.rate_multiplier = 2, leave_bonds_out(s); }},
        {"", "", [](Settings &s) { s.loading.rate_multiplier = 2; }},
        {"loading.servo_gain", "too slow", [](Settings &s) { s.loading.servo_gain = 0.09; }},
        {"", "", [](Settings &s) { s.loading.servo_gain = 0.1; }},
-       {"loading.wave_transits", "needs bonds",
-        [](Settings &s) { s.loading.rate = not_given, s.loading.wave_transits = 60, s.model.bond.reset(); }},
-       {"loading.wave_transits", "sets no speed",
-        [](Settings &s) {
-          s.loading.rate = not_given, s.loading.wave_transits = 60;
-          s.loading.tension = s.platens.glued = true;
-        }},
-       {"", "", [](Settings &s) { s.loading.rate = not_given, s.loading.wave_transits = 60; }},
-       {"loading.unload_at", "does not ascend",
-        [](Settings &s) {
-          s.loading.unload_at = {0.002, 0.001};
-        }},
-       {"loading.unload_at", "goes beyond",
-        [](Settings &s) {
-          s.loading.unload_at = {0.001, 0.01};
-        }},
-       {"", "",
-        [](Settings &s) {
-          s.loading.unload_at = {0.001, 0.0099};
-        }},
+       {"loading.wave_transits", "needs bonds", [](Settings &s) { by_wave_transits(s), leave_bonds_out(s); }},
+       {"loading.wave_transits", "sets no speed", [](Settings &s) { by_wave_transits(s), pull(s); }},
+       {"", "", by_wave_transits},
+       {"loading.unload_at", "does not ascend", unload_at({0.002, 0.001})},
+       {"loading.unload_at", "goes beyond", unload_at({0.001, 0.01})},
+       {"", "", unload_at({0.001, 0.0099})},
        {"loading.unload_at", "driven by motion",
-        [](Settings &s) { control_stress(s), s.loading.unload_at = {0.001}; }}},
+        [](Settings &s) { control_stress(s), unload_at({0.001})(s); }}},
       cylinder(), dem::cylinder(0.02, 0.04));
 }
 
@@ -144,8 +160,7 @@ TEST(Faults, platens_that_yield_or_turn_move_with_inertia) {
       {{"", "", yields},
        {"platens.elastic", "velocity verlet",
         [&](Settings &s) { yields(s), s.model.scheme = dem::Scheme::tchamwa_wielgosz; }},
-       {"platens.elastic", "between rigid ends",
-        [&](Settings &s) { yields(s), s.loading.start_strain = 1e-3; }},
+       {"platens.elastic", "between rigid ends", [&](Settings &s) { yields(s), start_strained(s); }},
        {"platens.elastic.pad_thickness", "leaves nothing",
         [&](Settings &s) { yields(s), s.platens.elastic->pad_thickness = 0.01; }},
        {"", "", [&](Settings &s) { yields(s), s.platens.elastic->pad_thickness = 0.0099; }},
@@ -160,8 +175,7 @@ TEST(Faults, platens_that_yield_or_turn_move_with_inertia) {
         [&](Settings &s) {
           yields(s), s.platens.elastic->pad_thickness = 1e-3, s.platens.elastic->layers.resize(1);
         }},
-       {"platens.machine.stiffness", "without inertia",
-        [&](Settings &s) { spring(s), s.loading.start_strain = 1e-3; }},
+       {"platens.machine.stiffness", "without inertia", [&](Settings &s) { spring(s), start_strained(s); }},
        {"platens.machine.damping", "lets a servo swing",
         [&](Settings &s) { spring(s), control_stress(s), s.platens.machine.damping = 0; }},
        {"platens.machine.damping", "servo", // of a cell
@@ -179,26 +193,20 @@ TEST(Faults, platens_that_yield_or_turn_move_with_inertia) {
 TEST(Faults, a_run_starts_strained_where_that_can_be_solved_for) {
   Settings sound = cylinder();
   sound.loading.start_strain = 1e-3;
-  expect_faults(
-      {{"loading.start_strain", "needs compression",
-        [](Settings &s) { s.loading.tension = s.platens.glued = true; }},
-       {"loading.start_strain", "needs compression", [](Settings &s) { s.loading.wall = true; }},
-       {"loading.start_strain", "`loading.cell`", press},
-       {"loading.start_strain", "`loading.servo` = motion", control_stress},
-       {"loading.start_strain", "needs bonds to solve for", [](Settings &s) { s.model.bond.reset(); }},
-       {"loading.start_strain", "without a memory",
-        [](Settings &s) { s.model.bond = dem::ElastoDamagePlastic::Parameters{}; }},
-       {"loading.start_strain", "gravity",
-        [](Settings &s) {
-          s.model.gravity = {0, 0, -9.8};
-        }},
-       {"loading.start_strain", "is not below `loading.target_strain`",
-        [](Settings &s) { s.loading.start_strain = 0.01; }},
-       {"loading.start_strain", "the first of `loading.unload_at`",
-        [](Settings &s) { s.loading.unload_at = {1e-3}; }},
-       {"loading.start_strain", "linear springs",
-        [](Settings &s) { s.platens.contact = PlatenContact::hertz; }}},
-      sound, dem::cylinder(0.02, 0.04));
+  expect_faults({{"loading.start_strain", "needs compression", pull},
+                 {"loading.start_strain", "needs compression", put_wall},
+                 {"loading.start_strain", "`loading.cell`", press},
+                 {"loading.start_strain", "`loading.servo` = motion", control_stress},
+                 {"loading.start_strain", "needs bonds to solve for", leave_bonds_out},
+                 {"loading.start_strain", "without a memory",
+                  [](Settings &s) { s.model.bond = dem::ElastoDamagePlastic::Parameters{}; }},
+                 {"loading.start_strain", "gravity", [](Settings &s) { s.model.gravity.z = -9.8; }},
+                 {"loading.start_strain", "is not below `loading.target_strain`",
+                  [](Settings &s) { s.loading.start_strain = 0.01; }},
+                 {"loading.start_strain", "the first of `loading.unload_at`", unload_at({1e-3})},
+                 {"loading.start_strain", "linear springs",
+                  [](Settings &s) { s.platens.contact = PlatenContact::hertz; }}},
+                sound, dem::cylinder(0.02, 0.04));
 }
 
 TEST(Faults, a_bar_is_bent_by_three_strips) {
@@ -208,7 +216,7 @@ TEST(Faults, a_bar_is_bent_by_three_strips) {
        {"platens.glued", "three point bending", [](Settings &s) { s.platens.glued = true; }},
        {"loading.servo", "three point bending", control_stress},
        {"loading.cell", "three point bending", press},
-       {"model.bond", "no bar to bend", [](Settings &s) { s.model.bond.reset(); }},
+       {"model.bond", "no bar to bend", leave_bonds_out},
        {"platens.spherical_seat", "three point bending",
         [](Settings &s) { s.platens.spherical_seat = true; }},
        {"platens.span", "no gap between the lower strips",
@@ -216,10 +224,7 @@ TEST(Faults, a_bar_is_bent_by_three_strips) {
        {"platens.span", "too long for a bar of 0.08 m", [](Settings &s) { s.platens.span = 0.0751; }},
        {"", "", [](Settings &s) { s.platens.span = 0.0749; }}},
       bar(), dem::box(0.08, 0.02, 0.02));
-  const dem::Shape round = dem::cylinder(0.02, 0.08);
-  const std::vector<Fault> found = faults(bar(), &round);
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_NE(found[0].reason.find("rectangular section"), std::string::npos);
+  EXPECT_NE(fault_of(bar(), dem::cylinder(0.02, 0.08)).find("rectangular section"), std::string::npos);
   EXPECT_TRUE(faults(bar(), nullptr).empty()) << "a shape that is not known is not judged";
 }
 
@@ -227,9 +232,7 @@ TEST(Faults, a_notch_is_of_a_bar_that_is_bent) {
   const auto of = [](const Settings &settings, double depth, double width) {
     dem::Shape shape = dem::box(0.08, 0.02, 0.02);
     shape.notch = {depth, width};
-    const std::vector<Fault> found = faults(settings, &shape);
-    EXPECT_LE(found.size(), 1u);
-    return found.empty() ? std::string() : found[0].member + " " + found[0].reason;
+    return fault_of(settings, shape);
   };
   EXPECT_EQ(of(bar(), 0.0179, 0.054), "");
   EXPECT_EQ(of(bar(), 0.0181, 0.001),
@@ -245,16 +248,10 @@ TEST(Faults, a_notch_is_of_a_bar_that_is_bent) {
 TEST(Faults, stages_of_a_bar_move_its_strips) {
   const auto of = [](double depth, SideGroup side, SideAsk::Ask ask, Until::Reached end) {
     Settings s = bar();
-    StageSettings &stage = s.loading.stages.emplace_back();
-    SideAsk one;
-    one.side = side, one.ask = ask, one.value = 0.01;
-    stage.asks = {one};
-    stage.until = {{end, 0.001, SideGroup::axial}};
+    ask_of_axis(s, side, ask, end);
     dem::Shape shape = dem::box(0.08, 0.02, 0.02);
     shape.notch.depth = depth;
-    const std::vector<Fault> found = faults(s, &shape);
-    EXPECT_LE(found.size(), 1u);
-    return found.empty() ? std::string() : found[0].member + " " + found[0].reason;
+    return fault_of(s, shape);
   };
   using Ask = SideAsk::Ask;
   using Reached = Until::Reached;
@@ -262,27 +259,23 @@ TEST(Faults, stages_of_a_bar_move_its_strips) {
   EXPECT_EQ(of(0, axial, Ask::rate, Reached::strain), "");
   EXPECT_EQ(of(0, axial, Ask::hold, Reached::time), "");
   EXPECT_EQ(of(0.005, axial, Ask::mouth_opening, Reached::mouth_opening), "");
+  const auto expect_told = [](const std::string &told, const char *words) {
+    EXPECT_NE(told.find(words), std::string::npos) << told;
+  };
   for (const Ask ask : {Ask::stress, Ask::free, Ask::circumferential})
-    EXPECT_NE(
-        of(0.005, axial, ask, Reached::time).find("does not go with three point bending. Allowed: rate"),
-        std::string::npos);
-  EXPECT_NE(of(0.005, axial, Ask::rate, Reached::circumferential_strain).find("looks at a circumference"),
-            std::string::npos);
-  EXPECT_NE(of(0, axial, Ask::mouth_opening, Reached::time).find("stage_1.axial looks at the mouth"),
-            std::string::npos);
-  EXPECT_NE(of(0, axial, Ask::rate, Reached::mouth_opening).find("stage_1.until looks at the mouth"),
-            std::string::npos);
-  EXPECT_NE(
-      of(0.005, SideGroup::top, Ask::mouth_opening, Reached::time).find("led by the opening of a notch"),
-      std::string::npos);
+    expect_told(of(0.005, axial, ask, Reached::time), "does not go with three point bending. Allowed: rate");
+  expect_told(of(0.005, axial, Ask::rate, Reached::circumferential_strain), "looks at a circumference");
+  expect_told(of(0, axial, Ask::mouth_opening, Reached::time), "stage_1.axial looks at the mouth");
+  expect_told(of(0, axial, Ask::rate, Reached::mouth_opening), "stage_1.until looks at the mouth");
+  expect_told(of(0.005, SideGroup::top, Ask::mouth_opening, Reached::time), "led by the opening of a notch");
 }
 
 TEST(Faults, one_thing_presses_a_side) {
   Settings pressed = cylinder();
   press(pressed);
   const auto sleeve = [](Settings &s) { s.loading.cell->sleeve.emplace(); };
-  expect_faults({{"loading.cell", "uniaxial strain", [](Settings &s) { s.loading.wall = true; }},
-                 {"loading.cell", "needs bonds", [](Settings &s) { s.model.bond.reset(); }},
+  expect_faults({{"loading.cell", "uniaxial strain", put_wall},
+                 {"loading.cell", "needs bonds", leave_bonds_out},
                  {"loading.servo", "does not go with `loading.cell`", control_stress},
                  {"", "", sleeve},
                  {"ModelSettings.scheme", "does not go with a sleeve",
@@ -297,34 +290,25 @@ TEST(Faults, one_thing_presses_a_side) {
   sleeve(pressed);
   const dem::Shape box = dem::box(0.02, 0.02, 0.04);
   EXPECT_EQ(faults(pressed, &box).front().member, "loading.cell");
-  expect_faults(
-      {{"platens.left", "`loading.cell`", press},
-       {"platens.left", "`loading.wall`", [](Settings &s) { s.loading.wall = true; }},
-       {"platens.left", "`platens.glued`", [](Settings &s) { s.platens.glued = true; }},
-       {"loading.start_strain", "platens on the sides", [](Settings &s) { s.loading.start_strain = 1e-3; }}},
-      between_sides(), box);
+  expect_faults({{"platens.left", "`loading.cell`", press},
+                 {"platens.left", "`loading.wall`", put_wall},
+                 {"platens.left", "`platens.glued`", [](Settings &s) { s.platens.glued = true; }},
+                 {"loading.start_strain", "platens on the sides", start_strained}},
+                between_sides(), box);
   const dem::Shape round = dem::cylinder(0.02, 0.04);
   EXPECT_NE(faults(between_sides(), &round).front().reason.find("presses a flat side"), std::string::npos);
 }
 
 TEST(Faults, stages_take_the_place_of_what_else_is_asked) {
   Settings sound = cylinder();
-  StageSettings stage;
-  stage.name = "stage 1";
-  SideAsk ask;
-  ask.side = SideGroup::axial, ask.ask = SideAsk::Ask::rate, ask.value = 0.01;
-  stage.asks = {ask};
-  stage.until = {{Until::Reached::strain, 0.01, SideGroup::axial}};
-  sound.loading.stages = {stage};
+  ask_of_axis(sound, SideGroup::axial, SideAsk::Ask::rate, Until::Reached::strain);
   expect_faults(
       {{"loading.servo", "does not go with stages", control_stress},
-       {"loading.start_strain", "does not go with stages",
-        [](Settings &s) { s.loading.start_strain = 1e-3; }},
-       {"loading.unload_at", "does not go with stages", [](Settings &s) { s.loading.unload_at = {1e-3}; }},
+       {"loading.start_strain", "does not go with stages", start_strained},
+       {"loading.unload_at", "does not go with stages", unload_at({1e-3})},
        {"loading.cell.path", "does not go with stages",
         [](Settings &s) { press(s), s.loading.cell->path = 0.1; }},
-       {"loading.tension", "does not go with stages",
-        [](Settings &s) { s.loading.tension = s.platens.glued = true; }},
+       {"loading.tension", "does not go with stages", pull},
        {"loading.stage_1.until", "has no end", [](Settings &s) { s.loading.stages[0].until.clear(); }},
        {"loading.stage_1.axial", "goes nowhere", [](Settings &s) { s.loading.stages[0].asks[0].value = 0; }}},
       sound, dem::cylinder(0.02, 0.04));

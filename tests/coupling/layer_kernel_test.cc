@@ -5,6 +5,7 @@
 
 #include "sphere_scene.h"
 #include "tests/instruction_sets.h"
+#include "tests/same_state.h"
 
 namespace platen::coupling {
 namespace {
@@ -32,65 +33,61 @@ struct Wave : fem::LoadedSurface {
   }
 };
 
-struct Outcome {
-  std::vector<char> bytes;
+// 200 spheres dance on the sheet for 400 steps.
+struct Dance {
+  dem::Particles particles;
+  Wave sheet;
+  ContactLayer layer;
   std::size_t touched = 0, slid = 0, idle = 0;
-};
 
-template <class T>
-void put(Outcome &to, const T &value) {
-  const char *from = reinterpret_cast<const char *>(&value);
-  to.bytes.insert(to.bytes.end(), from, from + sizeof value);
-}
-
-// 200 spheres dance on the sheet for 400 steps; all that can be seen of it.
-Outcome dance(SurfaceContact contact, bool only_shifts, bool rotation) {
-  std::mt19937 random(4);
-  std::uniform_real_distribution<double> draw(-1, 1);
-  std::vector<Vector3> centres;
-  for (int k = 0; k < 200; ++k)
-    centres.push_back(
-        {9e-3 * draw(random), 9e-3 * draw(random), sphere_radius * (1.1 + 0.15 * draw(random))});
-  dem::Particles particles(spheres(centres), 2500, rotation);
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    particles.velocity[i] = Vector3{draw(random), draw(random), draw(random)};
-    if (rotation) (*particles.angular_velocity)[i] = 1e3 * Vector3{draw(random), draw(random), draw(random)};
+  static dem::Specimen strewn(std::mt19937 &random) {
+    std::uniform_real_distribution<double> draw(-1, 1);
+    std::vector<Vector3> centres;
+    for (int k = 0; k < 200; ++k)
+      centres.push_back(
+          {9e-3 * draw(random), 9e-3 * draw(random), sphere_radius * (1.1 + 0.15 * draw(random))});
+    return spheres(centres);
   }
-  Wave sheet(plate(10e-3, 7).surface(), only_shifts);
-  ContactLayer layer(particles, sheet, contact);
-  Outcome seen;
-  constexpr double dt = 1e-7;
-  for (int step = 1; step <= 400; ++step) {
+  Dance(const SurfaceContact &contact, bool only_shifts, bool rotation, std::mt19937 random = std::mt19937(4))
+      : particles(strewn(random), 2500, rotation),
+        sheet(plate(10e-3, 7).surface(), only_shifts),
+        layer(particles, sheet, contact) {
+    std::uniform_real_distribution<double> draw(-1, 1);
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      particles.velocity[i] = Vector3{draw(random), draw(random), draw(random)};
+      if (rotation)
+        (*particles.angular_velocity)[i] = 1e3 * Vector3{draw(random), draw(random), draw(random)};
+    }
+    constexpr double dt = 1e-7;
+    for (int step = 1; step <= 400; ++step)
+      move(sheet.move(step * dt, dt), dt);
+  }
+  void move(double of_sheet, double dt) {
     double farthest = 0;
     for (std::size_t i = 0; i < particles.size(); ++i) {
       particles.position[i] += dt * particles.velocity[i];
       farthest = std::max(farthest, dt * norm(particles.velocity[i]));
       particles.force[i] = {};
-      if (rotation) (*particles.torque)[i] = {};
+      if (particles.has_rotation()) (*particles.torque)[i] = {};
     }
-    layer.moved(farthest + sheet.move(step * dt, dt));
+    layer.moved(farthest + of_sheet);
     sheet.clear_loads();
     layer.add_forces(particles, sheet, dt);
-    for (const ActiveContact &c : layer.contacts()) {
-      put(seen, c.point), put(seen, c.normal), put(seen, c.shear), put(seen, c.slip),
-          put(seen, c.normal_force);
-      ++seen.touched;
-      seen.slid += c.sliding;
-    }
-    seen.idle += layer.history().size() - layer.closed;
+    for (const ActiveContact &c : layer.contacts())
+      ++touched, slid += c.sliding;
+    idle += layer.history().size() - layer.closed;
     for (std::size_t i = 0; i < particles.size(); ++i) {
-      put(seen, particles.force[i]);
-      if (rotation) put(seen, (*particles.torque)[i]);
       particles.velocity[i] += (dt / particles.mass[i]) * (particles.force[i] - 3e-2 * Vector3{0, 0, 1});
-      if (rotation)
+      if (particles.has_rotation())
         (*particles.angular_velocity)[i] += (dt / (*particles.inertia)[i]) * (*particles.torque)[i];
     }
-    for (const Vector3 &load : sheet.contact_loads())
-      put(seen, load);
-    put(seen, layer.friction_work), put(seen, layer.damping_work), put(seen, layer.elastic_energy());
   }
-  return seen;
-}
+  // Where all came to rests on every bit of every step.
+  void describe(Archive &archive) {
+    archive.table("particles", particles.table);
+    archive.part("contacts", layer);
+  }
+};
 
 // Of a mesh that gives way under its contacts, m/N, by another amount on each face.
 std::vector<fem::FaceCompliance> compliances(std::size_t faces) {
@@ -113,7 +110,7 @@ TEST(layer_kernel, contacts_in_packs_are_those_row_by_row) {
           contact.damping = damping;
           if (damping > 0) contact.face_compliance = compliances(plate(10e-3, 7).surface().faces.size());
           contact.in_lanes = false;
-          const Outcome by_rows = dance(contact, only_shifts, rotation);
+          const Dance by_rows(contact, only_shifts, rotation);
           EXPECT_GT(by_rows.touched, 2000u);
           EXPECT_GT(by_rows.idle, 1000u) << "some are passed over";
           if (friction > 0) {
@@ -123,9 +120,9 @@ TEST(layer_kernel, contacts_in_packs_are_those_row_by_row) {
           contact.in_lanes = true;
           for (const dem::InstructionSet set : dem::instruction_sets_here()) {
             contact.instruction_set = set;
-            const Outcome packs = dance(contact, only_shifts, rotation);
-            EXPECT_EQ(packs.bytes.size(), by_rows.bytes.size());
-            EXPECT_TRUE(packs.bytes == by_rows.bytes)
+            const Dance packs(contact, only_shifts, rotation);
+            EXPECT_EQ(packs.sheet.contact_loads(), by_rows.sheet.contact_loads());
+            EXPECT_TRUE(same_state(by_rows, packs))
                 << dem::name(set) << ", friction " << friction << ", damping " << damping << ", rotation "
                 << rotation << ", the surface " << (only_shifts ? "shifts" : "deforms")
                 << ": the bits differ";

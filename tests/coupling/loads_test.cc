@@ -82,23 +82,15 @@ SideAsk back() {
 class LoadsOfStages : public testing::Test {
 protected:
   void add(const std::vector<SideAsk> &asks) {
-    StageSettings stage;
-    stage.asks = asks;
-    stage.until = {{Until::Reached::time, 1e-3}};
-    stages_.push_back(stage);
+    stages_.push_back(asking(asks, {{Until::Reached::time, 1e-3}}));
   }
   std::unique_ptr<PlatenTest> made(bool boxed = false) const {
-    PlatenTestSettings s;
-    s.model.bond_layout.modulus = 36e9;
-    s.model.bond_layout.gap.value = 0.05;
-    s.model.bond = dem::ParallelBond::Parameters{0.4, 1e12, 1e12, 0.0, 0.3};
-    s.platens.thickness = 2e-3;
-    s.platens.stiffness.value = 10;
-    PlatenSide side;
-    s.platens.top = s.platens.bottom = side;
+    PlatenTestSettings s = six_platens();
+    s.time_step.fixed_step = 0;
     s.loading.rate = 0.1;
     s.loading.stages = stages_;
-    if (boxed) s.platens.left = s.platens.right = s.platens.front = s.platens.back = side;
+    for (auto *side : {&s.platens.left, &s.platens.right, &s.platens.front, &s.platens.back})
+      if (!boxed) side->reset();
     if (!boxed) s.loading.cell.emplace();
     return std::make_unique<PlatenTest>(boxed ? cube() : cylinder(), s);
   }

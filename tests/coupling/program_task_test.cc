@@ -13,52 +13,25 @@ namespace {
 
 using namespace seen;
 
-TEST(stress, is_led_to_its_value_and_held_for_its_time) {
-  for (const bool by_strain : {false, true}) {
-    Seen seen;
-    Tasks tasks;
-    tasks.push_back(stress_on_top(5e6, 1e-3));
-    StageEnd::Parameters end;
-    end.any = {until(Until::Reached::time, 3e-3), until(Until::Reached::strain, 1e-2)};
-    Program program(seen, list_of(stage_of("stress", std::move(tasks), end)));
-    seen.now = by_strain ? 1e-4 : 2.9999e-3;
-    EXPECT_LT(ask(program)[1].velocity[2], 0); // presses
-    EXPECT_EQ(ask(program)[0].velocity[2], 0);
-    program.update();
-    EXPECT_FALSE(program.finished());
-    (by_strain ? seen.closure = 1e-2 : seen.now = 3e-3);
-    program.update();
-    EXPECT_TRUE(program.finished());
-  }
-}
-
 // The servo answers a share of the error; halfway through the ramp half of the change is asked.
 TEST(stress, goes_from_what_it_finds_smoothly) {
   for (const double found : {0.0, 2e6, 8e6}) {
     Seen seen;
     seen.stress = found;
-    Tasks tasks;
-    tasks.push_back(stress_on_top(5e6, 1e-3));
-    StageEnd::Parameters end;
-    end.any = {until(Until::Reached::settled, 0)};
-    end.least = 1e-3;
-    Program program(seen, list_of(stage_of("stress", std::move(tasks), end)));
-    seen.now = dt, ask(program);
+    const std::unique_ptr<Task> task = stress_on_top(5e6, 1e-3);
+    task->begin(seen, 0, {});
     for (const double x : {0.25, 0.5, 0.75, 1.5}) {
       const double wanted = x >= 1 ? 5e6 : found + x * x * (3 - 2 * x) * (5e6 - found);
       seen.now = x * 1e-3 + 0.5 * dt, seen.stress = wanted;
-      for (int n = 0; n < 60; ++n) // what is left of the velocity halves
-        ask(program);
-      EXPECT_NEAR(ask(program)[1].velocity[2], 0, 1e-12) << found << " " << x;
+      EXPECT_NEAR(speed_of(*task, seen, 1), 0, 1e-12) << found << " " << x;
       seen.stress = wanted - 1e4;
-      EXPECT_LT(ask(program)[1].velocity[2], 0) << found << " " << x;
+      EXPECT_LT(speed_of(*task, seen, 1), 0) << found << " " << x; // presses
+      EXPECT_EQ(speed_of(*task, seen, 0), 0);
     }
     seen.stress = 5e6 * 1.0101;
-    program.update();
-    EXPECT_FALSE(program.finished()) << found;
+    EXPECT_FALSE(task->has_settled(seen)) << found;
     seen.stress = 5e6 * 1.0099;
-    program.update();
-    EXPECT_TRUE(program.finished()) << found;
+    EXPECT_TRUE(task->has_settled(seen)) << found;
   }
 }
 
@@ -76,36 +49,14 @@ TEST(stress, what_stays_missing_is_asked_again) {
   StressTask task(p);
   seen.stress = 0.9 * p.value;
   task.begin(seen, 0, {});
-  const auto speed = [&] {
-    Commands all(3);
-    for (int n = 0; n < 60; ++n)
-      task.command(seen, all);
-    return all[1].velocity[2];
-  };
   seen.now = dt;
-  const double first = speed();
+  const double first = speed_of(task, seen, 1);
   EXPECT_LT(first, 0);
   for (int n = 1; n <= 2000; ++n) {
     seen.now = n * dt;
     task.update(seen);
     if (n % 1000 == 0) {
-      EXPECT_NEAR(speed() / first, 1 + n * dt / time, 1e-6) << n;
-    }
-  }
-}
-
-// A platen that is pulled settles within the same hundredth.
-TEST(stress, of_either_sign_settles_within_a_hundredth) {
-  for (const double value : {5e6, -5e6}) {
-    Seen seen;
-    const StressTask::Parameters p = stress_of(value);
-    StressTask task(p);
-    task.begin(seen, 0, {});
-    seen.now = dt;
-    for (const auto &[share, settled] : {std::pair{1.0, true}, std::pair{1.009, true}, std::pair{0.991, true},
-                                         std::pair{1.011, false}, std::pair{0.989, false}}) {
-      seen.stress = share * value;
-      EXPECT_EQ(task.has_settled(seen), settled) << share << " of " << value;
+      EXPECT_NEAR(speed_of(task, seen, 1) / first, 1 + n * dt / time, 1e-6) << n;
     }
   }
 }
@@ -194,29 +145,22 @@ TEST(pressure, follows_the_deviator_with_its_lag_and_is_never_negative) {
   PressureTask path(p);
   Transfer from = after_pressure(10e6);
   path.begin(seen, 0, from);
-  const auto asked = [&] {
-    Commands all(3);
-    path.command(seen, all);
-    return all[lateral].pressure;
-  };
   // Of a step s the mean of n values is s (1 - q^n), that of the means s (1 - q^n (1 + n / 50)).
   for (int n = 1; n <= 25; ++n)
     seen.now = n * dt, path.update(seen);
-  EXPECT_NEAR(asked(), 10e6 - 2e6 * (1 - 0.5 * std::pow(1 - 1.0 / 50, 25)), 1e-3);
+  EXPECT_NEAR(pressure_of(path, seen), 10e6 - 2e6 * (1 - 0.5 * std::pow(1 - 1.0 / 50, 25)), 1e-3);
   PressureTask after(p); // a stage that goes on along the path
   from.asked[lateral].pressure = 9e6;
   after.begin(seen, seen.now, from);
-  Commands all(3);
-  after.command(seen, all);
-  EXPECT_NEAR(all[lateral].pressure, 9e6, 1e-6);
+  EXPECT_NEAR(pressure_of(after, seen), 9e6, 1e-6);
   // What grows steadily is followed without a lag.
   for (int n = 26; n <= 1025; ++n)
     seen.now = n * dt, seen.stress = 16e6 + 1e3 * (n - 25), path.update(seen);
-  EXPECT_NEAR(asked(), 10e6 - (6e6 + 1e6) / 3, 1);
+  EXPECT_NEAR(pressure_of(path, seen), 10e6 - (6e6 + 1e6) / 3, 1);
   seen.stress = 1e9;
   for (int n = 1026; n <= 1550; ++n)
     seen.now = n * dt, path.update(seen);
-  EXPECT_EQ(asked(), 0);
+  EXPECT_EQ(pressure_of(path, seen), 0);
 }
 
 TEST(pressure, rises_from_what_it_finds_and_follows_a_share) {
@@ -224,22 +168,19 @@ TEST(pressure, rises_from_what_it_finds_and_follows_a_share) {
   Transfer from = after_pressure(3e6);
   PressureTask up(to(7e6, 1e-3));
   up.begin(seen, 1e-3, from);
-  Commands all(3);
   for (const double x : {0.0, 0.25, 0.5, 1.0, 3.0}) {
     seen.now = 1e-3 + x * 1e-3;
-    up.command(seen, all);
-    EXPECT_NEAR(all[lateral].pressure, x >= 1 ? 7e6 : 3e6 + 4e6 * x * x * (3 - 2 * x), 1e-3) << x;
+    EXPECT_NEAR(pressure_of(up, seen), x >= 1 ? 7e6 : 3e6 + 4e6 * x * x * (3 - 2 * x), 1e-3) << x;
   }
   PressureTask::Parameters p = to(0.25, 0);
   p.followed = axial, p.lag = 10 * dt;
   PressureTask share(p);
   seen.stress = 8e6;
   share.begin(seen, seen.now, from);
-  share.command(seen, all);
-  EXPECT_NEAR(all[lateral].pressure, 2e6, 1e-6);
+  EXPECT_NEAR(pressure_of(share, seen), 2e6, 1e-6);
   seen.stress = 16e6, seen.now += dt;
-  share.update(seen), share.command(seen, all);
-  EXPECT_NEAR(all[lateral].pressure, 0.25 * (8e6 + (2 * 0.1 - 0.01) * 8e6), 1e-6);
+  share.update(seen);
+  EXPECT_NEAR(pressure_of(share, seen), 0.25 * (8e6 + (2 * 0.1 - 0.01) * 8e6), 1e-6);
 }
 
 // The strain asked is the integral of a smooth start; the platens close faster where the specimen lags, and
@@ -252,11 +193,8 @@ TEST(circumferential, leads_the_platens_by_the_width) {
   task.begin(seen, 0, {});
   const auto speed = [&](double passed, double wider) {
     seen.wider = wider, seen.now = passed + 0.5 * dt;
-    Commands all(3);
-    for (int n = 0; n < 200; ++n)
-      task.command(seen, all);
-    EXPECT_EQ(all[0].velocity[2], -all[1].velocity[2]);
-    return 2 * all[0].velocity[2];
+    EXPECT_EQ(speed_of(task, seen, 0), -speed_of(task, seen, 1));
+    return 2 * speed_of(task, seen);
   };
   const double half = 3e-4 + rate * ramp * 0.125 * 0.75; // integral of 3 x^2 - 2 x^3 to 1/2: 3/32
   EXPECT_NEAR(speed(0.5e-3, half), 0.1 * 0.5 * rate / 0.2, 1e-9);
@@ -278,10 +216,7 @@ TEST(program, leads_the_platens_by_the_mouth_of_a_notch) {
   task.begin(seen, 0, {});
   const auto speed = [&](double behind) { // m
     seen.now = 2e-3 + 0.5 * dt, seen.wider = 3e-6 + rate * 2e-3 - behind;
-    Commands all(3);
-    for (int n = 0; n < 200; ++n)
-      task.command(seen, all);
-    return 2 * all[0].velocity[2];
+    return 2 * speed_of(task, seen);
   };
   EXPECT_NEAR(speed(0), closure * rate, 1e-9);
   EXPECT_NEAR(speed(1e-6), closure * (rate + 1e-6 / (20 * transit)), 1e-9);

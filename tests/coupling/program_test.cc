@@ -1,4 +1,5 @@
-// Loading stages one after the other: rates, their ends, and that a stop changes nothing.
+// Loading stages one after the other: rates and their ends. That a stop changes nothing is in
+// conformance_test.cc.
 #include "tests/coupling/seen.h"
 
 #include <gtest/gtest.h>
@@ -32,23 +33,6 @@ TEST(axial_rate, each_platen_goes_at_half_the_rate_from_a_smooth_start) {
   }
 }
 
-TEST(axial_rate, ends_at_its_strain_and_goes_on_asking) {
-  Seen seen;
-  const auto drive = drive_of_both();
-  Program program(seen, list_of(at_rate(drive, 0.08, 0, until(Until::Reached::strain, 1e-3))), {drive});
-  seen.now = dt, ask(program);
-  seen.closure = 0.999e-3;
-  program.update();
-  EXPECT_FALSE(program.finished());
-  EXPECT_NEAR(program.progress(), 0.999, 1e-12);
-  seen.closure = 1e-3;
-  program.update();
-  EXPECT_TRUE(program.finished());
-  EXPECT_EQ(program.progress(), 1);
-  EXPECT_EQ(ask(program)[0].velocity[2], 0.04);
-  EXPECT_NEAR(program.expected_seconds(), 1e-3 * 0.1 / 0.08, 1e-15);
-}
-
 // As one that was read with a larger strain than it had finished at.
 TEST(axial_rate, goes_on_to_a_later_end_as_if_there_had_been_none_before) {
   const auto told = [](double at, double closure, Program &program, Seen &seen) {
@@ -62,8 +46,12 @@ TEST(axial_rate, goes_on_to_a_later_end_as_if_there_had_been_none_before) {
   const double ramp = 10 * dt;
   Program early(one, list_of(at_rate(first, 0.08, ramp, until(Until::Reached::strain, 1e-3))), {first}),
       late(other, list_of(at_rate(second, 0.08, ramp, until(Until::Reached::strain, 2e-3))), {second});
-  for (int k = 1; k <= 5; ++k)
+  EXPECT_NEAR(early.expected_seconds(), 1e-3 * 0.1 / 0.08, 1e-15);
+  for (int k = 1; k <= 5; ++k) {
+    EXPECT_FALSE(early.finished());
     told(k * dt, 2.1e-4 * k, early, one);
+    EXPECT_NEAR(early.progress(), std::min(1., 0.21 * k), 1e-12);
+  }
   ASSERT_TRUE(early.finished());
   EXPECT_EQ(early.stage().ended_by(), "strain");
   early.go_on();
@@ -151,50 +139,6 @@ TEST(axial_rate, of_nothing_is_refused) {
   EXPECT_NO_THROW(drive.ask(-0.1, 1e-3, seen, 0));
   EXPECT_THROW(drive.change_rate(0, seen), std::invalid_argument);
   EXPECT_NO_THROW(drive.change_rate(0.1, seen));
-}
-
-TEST(program, goes_on_from_its_state_to_the_last_bit) {
-  const auto make = [](const Seen &seen) {
-    const auto drive = drive_of_both(RateControl::Parameters{4, 1e-5, 1e-4, 1000});
-    Stages stages = list_of(consolidation(4e6));
-    const auto add = [&](double rate, const Until &end) {
-      Tasks tasks;
-      tasks.push_back(std::make_unique<RateTask>(drive, rate, 1e-3));
-      PressureTask::Parameters p = to(4e6, 0);
-      p.path = 0.5, p.lag = 20 * dt;
-      tasks.push_back(std::make_unique<PressureTask>(p));
-      StageEnd::Parameters over;
-      over.any = {end};
-      stages.push_back(stage_of("compression", std::move(tasks), over, 1e-3));
-    };
-    add(0.08, until(Until::Reached::strain, 3e-5));
-    add(-0.08, until(Until::Reached::time, 3e-4));
-    add(0.08, until(Until::Reached::strain, 1e-3));
-    return std::make_unique<Program>(seen, std::move(stages), std::vector{drive});
-  };
-  Seen seen;
-  const auto drive = [&](Program &program, int first, int last) {
-    std::vector<double> asked;
-    for (int n = first; n < last; ++n) {
-      seen.now = (n + 1) * dt;
-      for (const Command &command : ask(program))
-        asked.insert(asked.end(), {command.velocity[2], command.pressure});
-      seen.closure = 2e-7 * n, seen.pressure = 4e6, seen.stress = 4e6 + 1e3 * std::max(0, n - 1500);
-      program.update();
-    }
-    return asked;
-  };
-  for (const int stop : {700, 1499, 1501, 1750, 3200}) {
-    const auto whole = make(seen), resumed = make(seen);
-    seen = {};
-    drive(*whole, 0, stop);
-    set_state(*resumed, state_of(*whole));
-    const Seen at_stop = seen;
-    const std::vector<double> expected = drive(*whole, stop, stop + 600);
-    seen = at_stop;
-    EXPECT_EQ(drive(*resumed, stop, stop + 600), expected) << stop;
-    EXPECT_TRUE(same_state(*whole, *resumed)) << stop;
-  }
 }
 
 TEST(program, without_a_stage_is_refused) {

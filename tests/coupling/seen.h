@@ -121,6 +121,19 @@ inline Stages list_of(std::unique_ptr<Stage> one) {
   return stages;
 }
 
+// m/s, of a platen along z, once what a servo or a width asks of one task has come to rest.
+inline double speed_of(Task &task, const Seen &seen, std::size_t boundary = 0) {
+  Commands asked(3);
+  for (int n = 0; n < 200; ++n)
+    task.command(seen, asked);
+  return asked[boundary].velocity[2];
+}
+inline double pressure_of(Task &task, const Seen &seen) {
+  Commands asked(3);
+  task.command(seen, asked);
+  return asked[lateral].pressure;
+}
+
 inline Commands ask(Program &program) {
   Commands asked(3);
   program.command(asked);

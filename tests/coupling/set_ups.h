@@ -108,11 +108,22 @@ inline PlatenTestSettings walled() {
   s.loading.wall = true;
   return s;
 }
+inline void press(PlatenTestSettings &s, double pressure, double ramp = CellSettings{}.ramp) {
+  CellSettings &cell = s.loading.cell.emplace();
+  cell.pressure = pressure, cell.ramp = ramp;
+}
+// In rubber, within the cell.
+inline SleeveSettings &wrap(PlatenTestSettings &s, double thickness,
+                            double poisson = SleeveSettings{}.poisson_ratio) {
+  SleeveSettings &sleeve = s.loading.cell->sleeve.emplace();
+  sleeve.thickness = thickness, sleeve.poisson_ratio = poisson;
+  return sleeve;
+}
 inline PlatenTestSettings hydrostatic(bool sleeve) {
   PlatenTestSettings s = smooth();
-  CellSettings &cell = s.loading.cell.emplace();
-  cell.pressure = 5e6, cell.ramp = 4e-5, cell.alone = true;
-  if (sleeve) cell.sleeve.emplace().thickness = 1.5e-3, cell.sleeve->mass_scaling = 1;
+  press(s, 5e6, 4e-5);
+  s.loading.cell->alone = true;
+  if (sleeve) wrap(s, 1.5e-3).mass_scaling = 1;
   return s;
 }
 inline PlatenTestSettings held_at(double stress) {
@@ -186,6 +197,13 @@ inline SideAsk asked_of(SideGroup side, SideAsk::Ask what, double value = not_gi
   return ask;
 }
 
+inline StageSettings asking(const std::vector<SideAsk> &asks,
+                            const std::vector<StageUntil> &until = {{Until::Reached::settled}}) {
+  StageSettings stage;
+  stage.asks = asks, stage.until = until;
+  return stage;
+}
+
 // A cube pressed on all sides through frictionless platens, by stresses along x, y and z (Pa).
 inline PlatenTestSettings six_platens(const std::array<double, 3> &stresses = {5e6, 5e6, 5e6}) {
   PlatenTestSettings s = elastic_settings(0.5);
@@ -197,13 +215,11 @@ inline PlatenTestSettings six_platens(const std::array<double, 3> &stresses = {5
   s.platens.top = s.platens.bottom = side;
   s.platens.left = s.platens.right = s.platens.front = s.platens.back = side;
   s.time_step.fixed_step = 8e-8; // that of two packings alike
-  StageSettings &stage = s.loading.stages.emplace_back();
-  stage.name = "stresses";
-  stage.asks = {asked_of(SideGroup::lateral_x, SideAsk::Ask::stress, stresses[0]),
-                asked_of(SideGroup::lateral_y, SideAsk::Ask::stress, stresses[1]),
-                asked_of(SideGroup::axial, SideAsk::Ask::stress, stresses[2])};
-  stage.until = {{Until::Reached::settled}, {Until::Reached::time, 1e-3}};
-  stage.latest = 1e-3;
+  s.loading.stages = {asking({asked_of(SideGroup::lateral_x, SideAsk::Ask::stress, stresses[0]),
+                              asked_of(SideGroup::lateral_y, SideAsk::Ask::stress, stresses[1]),
+                              asked_of(SideGroup::axial, SideAsk::Ask::stress, stresses[2])},
+                             {{Until::Reached::settled}, {Until::Reached::time, 1e-3}})};
+  s.loading.stages[0].name = "stresses", s.loading.stages[0].latest = 1e-3;
   return s;
 }
 

@@ -71,28 +71,19 @@ double strain_ratio(double stiffness_ratio, bool rotation, double friction) {
   return std::sqrt(3.0) * lateral / (sunk_high - sunk_low);
 }
 
-constexpr double ratios[3] = {.5, .7, .9};
-
-// (1 - r)/(3 + r). The linear solution of a pair of springs at 60 degrees is met to the relative size of the
-// motion.
-TEST(three_spheres, spread_on_slippery_plates_as_the_linear_solution_says) {
-  for (const double r : ratios)
-    EXPECT_NEAR(strain_ratio(r, false, 0), (1 - r) / (3 + r), 1e-3 * (1 - r) / (3 + r));
-}
-
-// Minimum of the energy of bonds with rotation; four published digits.
-TEST(three_spheres, spread_more_where_they_may_turn) {
-  const double expected[3] = {.2121, .1897, .1733};
-  for (int k = 0; k < 3; ++k)
-    EXPECT_NEAR(strain_ratio(ratios[k], true, 0), expected[k], 1e-3 * expected[k]);
-}
-
-// On plates that hold the contact point they roll, and draw together. The springs along the plate give by
-// 1/900 of the bonds' stiffness.
-TEST(three_spheres, draw_together_where_they_roll) {
-  const double expected[3] = {-.0122, -.0701, -.1148};
-  for (int k = 0; k < 3; ++k)
-    EXPECT_NEAR(strain_ratio(ratios[k], true, std::numeric_limits<double>::infinity()), expected[k], 1e-3);
+// On slippery plates (1 - r)/(3 + r), the linear solution of a pair of springs at 60 degrees, met to the
+// relative size of the motion; where they may turn the minimum of the energy of bonds with rotation, four
+// published digits; on plates that hold the contact point they roll and draw together, where the springs
+// along the plate give by 1/900 of the bonds' stiffness.
+TEST(three_spheres, spread_as_the_linear_solution_says) {
+  constexpr double r[3] = {.5, .7, .9}, turning[3] = {.2121, .1897, .1733},
+                   rolling[3] = {-.0122, -.0701, -.1148};
+  for (int k = 0; k < 3; ++k) {
+    const double sliding = (1 - r[k]) / (3 + r[k]);
+    EXPECT_NEAR(strain_ratio(r[k], false, 0), sliding, 1e-3 * sliding);
+    EXPECT_NEAR(strain_ratio(r[k], true, 0), turning[k], 1e-3 * turning[k]);
+    EXPECT_NEAR(strain_ratio(r[k], true, std::numeric_limits<double>::infinity()), rolling[k], 1e-3);
+  }
 }
 
 } // namespace

@@ -78,14 +78,13 @@ PlatenTestSettings beams() {
 PlatenTestSettings staged() {
   PlatenTestSettings s = hydrostatic(false);
   s.loading.cell->alone = false;
-  StageSettings press, widen;
-  press.asks = {asked_of(SideGroup::lateral, SideAsk::Ask::pressure, 1e6),
-                asked_of(SideGroup::axial, SideAsk::Ask::stress, 1e6)};
-  press.ramp = 2e-5;
-  press.until = {{Until::Reached::time, 4e-5}};
-  widen.asks = {asked_of(SideGroup::axial, SideAsk::Ask::circumferential, 1)};
-  widen.until = {{Until::Reached::circumferential_strain, 0.1}, {Until::Reached::share_of_peak, 0.5}};
-  s.loading.stages = {press, widen};
+  s.loading.stages = {
+      asking({asked_of(SideGroup::lateral, SideAsk::Ask::pressure, 1e6),
+              asked_of(SideGroup::axial, SideAsk::Ask::stress, 1e6)},
+             {{Until::Reached::time, 4e-5}}),
+      asking({asked_of(SideGroup::axial, SideAsk::Ask::circumferential, 1)},
+             {{Until::Reached::circumferential_strain, 0.1}, {Until::Reached::share_of_peak, 0.5}})};
+  s.loading.stages[0].ramp = 2e-5;
   return s;
 }
 

@@ -1,15 +1,11 @@
-// Clamp, quasi-static shapes, state and picture of an elastic solid.
+// Clamp and quasi-static shapes of an elastic solid.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
-#include <sstream>
 #include <stdexcept>
 
-#include "base/parallel.h"
 #include "tests/elastic_nodes.h"
 #include "tests/fem/elastic_plate.h"
-#include "tests/same_state.h"
 
 namespace platen::fem {
 namespace {
@@ -157,74 +153,6 @@ TEST(elastic_solid, a_supported_body_says_how_many_solves_it_is_behind) {
     while (std::abs(places[n] - end) > std::exp(-1) * std::abs(end))
       ++n;
     EXPECT_NEAR(static_cast<double>(n + 1), behind, 0.5 * behind) << spring;
-  }
-}
-
-TEST(elastic_solid, any_number_of_threads_gives_the_same_bits) {
-  std::vector<State> ends;
-  for (const int threads : {1, 2, 4}) {
-    const ThreadLimit limit(threads);
-    ElasticSolid solid(make_grid(CylinderPlate{0.03, 0.02, 0, 12, 3}), {steel}, Clamp{}, {2});
-    put(solid, uneven_loads(solid, 1e4));
-    const double dt = 2 * solid.stable_step();
-    for (int k = 0; k < 5; ++k)
-      solid.kick(0.5 * dt), solid.drift(dt), solid.kick(0.5 * dt);
-    ends.push_back(state_of(solid));
-  }
-  EXPECT_TRUE(same_state(ends[0], ends[1]));
-  EXPECT_TRUE(same_state(ends[0], ends[2]));
-}
-
-TEST(elastic_solid, goes_on_from_its_state_to_the_last_bit) {
-  for (const ElasticMotion kind : {ElasticMotion::explicit_steps, ElasticMotion::quasi_static}) {
-    Clamp clamp;
-    clamp.turns = true;
-    clamp.seat = {0.01, 0, 0.02};
-    const auto make = [&] { return ElasticSolid(plate(), {steel}, clamp, {1, kind}); };
-    ElasticSolid solid = make();
-    const std::vector<Vector3> loads = uneven_loads(solid, 1e4);
-    const double dt = 3e-7;
-    const auto go = [&](ElasticSolid &body, int first, int last) {
-      for (int k = first; k < last; ++k) {
-        if (kind == ElasticMotion::quasi_static && k % 10 == 0) body.aim(body.contact_loads(), 10 * dt);
-        body.kick(0.5 * dt), body.drift(dt);
-        body.clear_loads();
-        for (std::size_t v = 0; v < loads.size(); v += 3)
-          body.add_surface_force(static_cast<int>(v),
-                                 std::cos(k) * loads[v] - 1e3 * body.surface().velocities[v]);
-        body.kick(0.5 * dt);
-      }
-    };
-    solid.set_velocity({0, 0, -0.2});
-    go(solid, 0, 27);
-    ElasticSolid other = make();
-    put(other, loads);
-    set_state(other, state_of(solid));
-    EXPECT_TRUE(same_state(solid, other));
-    EXPECT_EQ(other.surface().vertices, solid.surface().vertices);
-    EXPECT_EQ(other.surface().velocities, solid.surface().velocities);
-    go(solid, 27, 60), go(other, 27, 60);
-    EXPECT_TRUE(same_state(solid, other));
-    EXPECT_EQ(other.energy_balance().strain, solid.energy_balance().strain);
-    EXPECT_THROW(set_state(other, State()), StateError);
-  }
-}
-
-TEST(elastic_solid, the_picture_names_its_fields_and_repeats) {
-  for (const int degree : {1, 2}) {
-    ElasticSolid solid(make_grid(BoxPlate{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, {{0.5, 1}, {0.5, 1}}),
-                       {pad, steel}, Clamp{}, {degree, ElasticMotion::quasi_static});
-    const std::vector<Vector3> loads = uneven_loads(solid, 1e3);
-    put(solid, loads);
-    solid.aim(loads, 0);
-    std::ostringstream first, second;
-    solid.write_vtu(first);
-    solid.write_vtu(second, std::vector<double>(loads.size(), 0.0));
-    for (const char *field : {"displacement", "stress", "von_mises", "contact_pressure", "contact_shear",
-                              "slip", "compressor=\"vtkZLib"})
-      EXPECT_NE(first.str().find(field), std::string::npos) << field;
-    EXPECT_EQ(first.str(), second.str());
-    EXPECT_THROW(solid.write_vtu(first, {1.0}), std::invalid_argument);
   }
 }
 

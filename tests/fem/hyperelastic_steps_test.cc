@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "tests/fem/newton.h"
 #include "tests/fem/rubber_sleeve.h"
@@ -15,47 +14,22 @@
 namespace platen::fem {
 namespace {
 
-// Largest eigenvalue of M^-1 K by Lanczos with full orthogonalisation; from below, so that the step from it
-// is an upper bound of the true one.
-double lanczos(const HyperelasticSolid &solid, int steps) {
-  const std::size_t nodes = solid.mesh().nodes.size();
-  const auto count = static_cast<Eigen::Index>(3 * nodes);
-  const auto apply = [&](const Eigen::VectorXd &x) {
-    std::vector<Vector3> d(nodes);
-    for (std::size_t n = 0; n < nodes; ++n)
-      for (std::size_t k = 0; k < 3; ++k)
-        d[n][k] = x[static_cast<Eigen::Index>(3 * n + k)] / std::sqrt(solid.nodal_mass()[n]);
-    const std::vector<Vector3> f = stiffness_times(solid, d);
-    Eigen::VectorXd y(count);
-    for (std::size_t n = 0; n < nodes; ++n)
-      for (std::size_t k = 0; k < 3; ++k)
-        y[static_cast<Eigen::Index>(3 * n + k)] = f[n][k] / std::sqrt(solid.nodal_mass()[n]);
-    return y;
-  };
-  Eigen::MatrixXd basis(count, steps), small = Eigen::MatrixXd::Zero(steps, steps);
-  Eigen::VectorXd v(count);
-  for (Eigen::Index k = 0; k < count; ++k)
-    v[k] = std::sin(1.0 + 12.9898 * static_cast<double>(k * k % 1009));
-  v.normalize();
-  for (int s = 0; s < steps; ++s) {
-    basis.col(s) = v;
-    Eigen::VectorXd w = apply(v);
-    small(s, s) = v.dot(w);
-    for (int again = 0; again < 2; ++again)
-      w -= basis.leftCols(s + 1) * (basis.leftCols(s + 1).transpose() * w);
-    const double beta = w.norm();
-    if (s + 1 < steps) small(s, s + 1) = small(s + 1, s) = beta;
-    v = w / beta;
-  }
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(small).eigenvalues()[steps - 1];
+// s, 2 / omega of the fastest oscillation of all.
+double limit_of(const HyperelasticSolid &solid) {
+  Eigen::VectorXd root(static_cast<Eigen::Index>(3 * solid.nodal_mass().size()));
+  for (Eigen::Index m = 0; m < root.size(); ++m)
+    root[m] = 1 / std::sqrt(solid.nodal_mass()[static_cast<std::size_t>(m / 3)]);
+  const Eigen::MatrixXd scaled = root.asDiagonal() * Eigen::MatrixXd(tangent_of(solid)) * root.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
+  return 2 / std::sqrt(solver.eigenvalues().maxCoeff());
 }
 
-TEST(hyperelastic_solid, the_stable_step_is_below_that_of_lanczos) {
+TEST(hyperelastic_solid, the_stable_step_is_just_below_that_of_the_fastest_oscillation) {
   for (const double poisson : {0.3, 0.49, 0.4995}) {
     HyperelasticSolid solid = sleeve({1100, NeoHookean::from_young(3e6, poisson)});
     for (const double size : {0.0, 0.003}) {
       solid.set_displacement(bent(solid, size));
-      const double limit = 2 / std::sqrt(lanczos(solid, 60));
+      const double limit = limit_of(solid);
       EXPECT_LT(solid.stable_step(), limit * (1 + 1e-6));
       EXPECT_GT(solid.stable_step(), 0.99 * limit);
     }
@@ -105,20 +79,6 @@ TEST(hyperelastic_solid, works_of_a_slow_path_are_stored) {
     EXPECT_LT(std::abs(error[fine]), 1e-6 * stored);
   }
   EXPECT_NEAR(error[0] / error[1], 4, 1);
-}
-
-TEST(hyperelastic_solid, steps_below_the_limit_stay_bounded_and_above_it_do_not) {
-  const double limit = 2 / std::sqrt(lanczos(held_sleeve(0), 60));
-  HyperelasticSolid calm = held_sleeve(2e3), wild = held_sleeve(2e3);
-  const double dt = 0.95 * calm.stable_step(); // it stiffens a little on its way
-  double energy = 0, work = 0;
-  for (int k = 0; k < 2000; ++k) {
-    step(calm, dt, 1);
-    energy = std::max(energy, calm.kinetic_energy() + calm.internal_energy());
-    work = std::max(work, calm.pressure_work());
-  }
-  EXPECT_LT(energy, 2 * work);
-  EXPECT_THROW(step(wild, 1.2 * limit, 2000), InvertedElement);
 }
 
 TEST(hyperelastic_solid, damped_steps_come_to_rest_where_newton_does) {

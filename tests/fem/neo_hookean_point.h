@@ -1,27 +1,11 @@
-// The neo-Hookean law at one point with its own J in both parts. F must not be inverted.
+// Stress of the neo-Hookean law at one point with its own J in both parts. F must not be inverted.
 #pragma once
 
 #include "fem/materials/neo_hookean.h"
 
 namespace platen::fem {
 
-inline double energy(const NeoHookean &law, const Tensor &f) { // J/m^3
-  const double j = determinant(f);
-  return 0.5 * (law.shape_factor(j) * squared_norm(f) - 3 * law.shear_modulus) + law.volume_energy(j);
-}
-
-// First Piola-Kirchhoff stress dW/dF, Pa.
-inline Tensor first_piola(const NeoHookean &law, const Tensor &f) {
-  const Tensor cof = cofactor(f);
-  const double j = determinant(f, cof), shape = law.shape_factor(j);
-  const double along = law.volume_stress(j) - shape * squared_norm(f) / (3 * j);
-  Tensor p;
-  for (std::size_t k = 0; k < 9; ++k)
-    p[k] = shape * f[k] + along * cof[k];
-  return p;
-}
-
-// Kirchhoff stress P F', Pa; over J it is Cauchy's.
+// Kirchhoff's, Pa; over J it is Cauchy's.
 inline Tensor kirchhoff(const NeoHookean &law, const Tensor &f) {
   const double j = determinant(f), shape = law.shape_factor(j), third = squared_norm(f) / 3;
   Tensor tau{};

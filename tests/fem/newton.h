@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -20,15 +19,7 @@ namespace platen::fem {
 class Newton {
 public:
   explicit Newton(HyperelasticSolid &solid)
-      : solid_(solid),
-        prescribed_(solid.mesh().nodes.size()),
-        goal_(solid.displacement()),
-        around_(prescribed_.size()) {
-    for (const std::array<int, 8> &cell : solid.mesh().cell_nodes)
-      for (const int n : cell)
-        around_[index(n)].insert(cell.begin(), cell.end());
-    paint();
-  }
+      : solid_(solid), prescribed_(solid.mesh().nodes.size()), goal_(solid.displacement()) {}
 
   // As the solid's prescribe(); the nodes stay where they are until they are placed.
   int prescribe(const std::vector<int> &nodes, const std::array<bool, 3> &components) {
@@ -100,54 +91,20 @@ private:
     return way;
   }
 
-  // Nodes of one colour have no neighbour in common: one product with the tangent tells their columns apart.
-  void paint() {
-    colour_.assign(around_.size(), 0);
-    for (std::size_t n = 0; n < around_.size(); ++n) {
-      std::set<std::size_t> taken;
-      for (const int beside : around_[n])
-        for (const int other : around_[index(beside)])
-          if (index(other) < n) taken.insert(colour_[index(other)]);
-      while (taken.count(colour_[n]) != 0)
-        ++colour_[n];
-      colours_ = std::max(colours_, colour_[n] + 1);
-    }
-  }
-
-  // Rows of free components; those of prescribed ones say where they go.
-  Eigen::SparseMatrix<double> tangent() const {
-    const auto row = [](std::size_t node, std::size_t k) { return static_cast<int>(3 * node + k); };
-    std::vector<Eigen::Triplet<double>> entries;
-    for (std::size_t c = 0; c < colours_; ++c)
-      for (std::size_t k = 0; k < 3; ++k) {
-        std::vector<Vector3> probe(prescribed_.size(), Vector3{});
-        for (std::size_t n = 0; n < probe.size(); ++n)
-          if (colour_[n] == c) probe[n][k] = 1;
-        const std::vector<Vector3> forces = stiffness_times(solid_, probe);
-        for (std::size_t n = 0; n < probe.size(); ++n) {
-          if (colour_[n] != c) continue;
-          if (prescribed_[n][k]) entries.emplace_back(row(n, k), row(n, k), 1.0);
-          for (const int other : around_[n])
-            for (std::size_t l = 0; l < 3; ++l)
-              if (!prescribed_[index(other)][l])
-                entries.emplace_back(row(index(other), l), row(n, k), forces[index(other)][l]);
-        }
-      }
-    const auto size = static_cast<Eigen::Index>(3 * prescribed_.size());
-    Eigen::SparseMatrix<double> matrix(size, size);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return matrix;
-  }
-
+  // Rows of prescribed components say where these go, at once.
   void step(const std::vector<Vector3> &balance, const std::vector<Vector3> &way) {
-    Eigen::VectorXd right(static_cast<Eigen::Index>(3 * prescribed_.size()));
-    for (std::size_t n = 0; n < prescribed_.size(); ++n)
-      for (std::size_t k = 0; k < 3; ++k)
-        right[static_cast<Eigen::Index>(3 * n + k)] = prescribed_[n][k] ? way[n][k] : balance[n][k];
-    Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(tangent());
-    const Eigen::VectorXd move = factors.solve(right);
+    const auto is_prescribed = [&](Eigen::Index m) {
+      return prescribed_[static_cast<std::size_t>(m / 3)][static_cast<std::size_t>(m % 3)];
+    };
+    Tangent tangent = tangent_of(solid_);
+    tangent.prune([&](Eigen::Index row, Eigen::Index, double) { return !is_prescribed(row); });
+    for (Eigen::Index m = 0; m < tangent.rows(); ++m)
+      if (is_prescribed(m)) tangent.coeffRef(m, m) = 1;
+    tangent.makeCompressed();
+    const Eigen::SparseLU<Tangent> factors(tangent);
+    const Eigen::VectorXd move = factors.solve(as_column(balance) + as_column(way));
     std::vector<Vector3> place = solid_.displacement();
-    for (std::size_t n = 0; n < prescribed_.size(); ++n)
+    for (std::size_t n = 0; n < place.size(); ++n)
       for (std::size_t k = 0; k < 3; ++k)
         place[n][k] =
             prescribed_[n][k] ? goal_[n][k] : place[n][k] + move[static_cast<Eigen::Index>(3 * n + k)];
@@ -156,10 +113,7 @@ private:
 
   HyperelasticSolid &solid_;
   std::vector<std::array<bool, 3>> prescribed_;
-  std::vector<Vector3> goal_;         // m
-  std::vector<std::set<int>> around_; // each node: itself and the nodes of its cells
-  std::vector<std::size_t> colour_;
-  std::size_t colours_ = 0;
+  std::vector<Vector3> goal_; // m
 };
 
 } // namespace platen::fem

@@ -7,7 +7,6 @@
 #include "base/pi.h"
 #include "fem/rigid_body.h"
 #include "fem/rotor.h"
-#include "tests/same_state.h"
 
 namespace platen::fem {
 namespace {
@@ -201,19 +200,6 @@ TEST(rigid_seat, the_fastest_of_three_turns_is_found) {
   EXPECT_NEAR(largest_eigenvalue({1, 1, 1, .5, .5, .5, .25, .25, .25}), 1.75, 1e-12);
   // Of [2 1; 1 2] beside 5/2: 3 and 1.
   EXPECT_NEAR(largest_eigenvalue({2, 1, 0, 1, 2, 0, 0, 0, 2.5}), 3, 1e-12);
-}
-
-TEST(rigid_seat, its_state_comes_back_to_the_last_bit) {
-  RigidBody body = plate(), other = plate();
-  body.set_velocity({0.1, 0, -0.2}, {3, -2, 1});
-  body.add_surface_force(3, {1, -2, 1.0 / 3});
-  for (int step = 0; step < 7; ++step)
-    body.kick(1e-5), body.drift(1e-4 / 3);
-  set_state(other, state_of(body));
-  for (RigidBody *one : {&body, &other})
-    one->set_velocity({0, 0, -0.3}), one->kick(1e-5), one->drift(1e-4);
-  EXPECT_TRUE(same_state(body, other));
-  EXPECT_EQ(body.last_move(), other.last_move());
 }
 
 // The bound by which contacts are searched for: what the farthest vertex really went.

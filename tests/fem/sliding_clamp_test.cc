@@ -1,11 +1,11 @@
 // An elastic solid whose clamp slides by itself, as on the spring of a machine: its momentum is what was
-// given to it, its energy balance closes, and it swings with all of its mass.
+// given to it, and its energy balance closes. That it swings with all of its mass is in
+// coupling/machine_spring_test.cc.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/pi.h"
 #include "tests/elastic_nodes.h"
 #include "tests/fem/elastic_plate.h"
 
@@ -85,26 +85,6 @@ TEST(sliding_clamp, the_energy_balance_closes) {
       }
       EXPECT_LT(worst, (turns ? 1e-3 : 1e-12) * most) << static_cast<int>(motion) << turns;
     }
-}
-
-// On a spring that is soft against it, in which all its mass moves, whether it is its own or attached.
-TEST(sliding_clamp, swings_on_a_spring_with_all_of_its_mass) {
-  for (const double attached : {0.0, 2.0}) {
-    ElasticSolid solid = sliding(ElasticMotion::explicit_steps, attached, 0.1);
-    const double k = 1e7, omega = std::sqrt(k / (solid.mass() + attached)), dt = 1.7 * solid.stable_step();
-    const double period = 2 * pi / omega, start = 1e-6; // m
-    double before = start, crossed = 0;
-    int crossings = 0;
-    for (int n = 0; crossings < 4; ++n) {
-      const double place = start + dot(solid.displacement(), down);
-      if (before * place < 0) ++crossings, crossed = n * dt;
-      before = place;
-      solid.push(-0.5 * dt * k * place);
-      solid.kick(0.5 * dt), solid.drift(dt), solid.kick(0.5 * dt);
-      solid.push(-0.5 * dt * k * (start + dot(solid.displacement(), down)));
-    }
-    EXPECT_NEAR(crossed / period, 1.75, 0.005) << attached;
-  }
 }
 
 TEST(sliding_clamp, the_largest_step_counts_the_spring_that_pushes_it) {

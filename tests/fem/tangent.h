@@ -1,6 +1,8 @@
 // The tangent of a HyperelasticSolid, for tests.
 #pragma once
 
+#include <Eigen/Sparse>
+
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -9,31 +11,40 @@
 
 namespace platen::fem {
 
-// Derivative of (internal - pressure) forces times a vector, one per node.
-inline std::vector<Vector3> stiffness_times(const HyperelasticSolid &solid,
-                                            const std::vector<Vector3> &direction) {
+using Tangent = Eigen::SparseMatrix<double>;
+
+// Derivative of (internal - pressure) forces by displacements, three rows and columns per node.
+inline Tangent tangent_of(const HyperelasticSolid &solid) {
   const SolidMesh &mesh = solid.mesh();
-  const auto index = [](int k) { return static_cast<std::size_t>(k); };
-  std::vector<Vector3> result(direction.size(), Vector3{});
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const CellStiffness k =
-        cell_stiffness(solid.material().law, mesh.cells[c], mesh.gather(c, solid.displacement()));
-    const Corners own = mesh.gather(c, direction);
-    for (std::size_t m = 0; m < 24; ++m)
-      for (std::size_t n = 0; n < 24; ++n)
-        result[index(mesh.cell_nodes[c][m / 3])][m % 3] += k[24 * m + n] * own[n / 3][n % 3];
-  }
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](const auto &nodes, const auto &part, double factor) {
+    const std::size_t size = 3 * nodes.size();
+    const auto row = [&](std::size_t m) { return 3 * nodes[m / 3] + static_cast<int>(m % 3); };
+    for (std::size_t m = 0; m < size; ++m)
+      for (std::size_t n = 0; n < size; ++n)
+        entries.emplace_back(row(m), row(n), factor * part[size * m + n]);
+  };
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    add(mesh.cell_nodes[c],
+        cell_stiffness(solid.material().law, mesh.cells[c], mesh.gather(c, solid.displacement())), 1);
   for (const BoundaryFace &face : mesh.faces) {
-    FaceCorners place, own;
+    FaceCorners place;
     for (std::size_t k = 0; k < 4; ++k)
-      place[k] = solid.node_place(face.nodes[k]), own[k] = direction[index(face.nodes[k])];
-    const std::array<double, 144> gradient = corner_area_gradient(place);
-    for (std::size_t m = 0; m < 12; ++m)
-      for (std::size_t n = 0; n < 12; ++n)
-        result[index(face.nodes[m / 3])][m % 3] +=
-            solid.pressure(face.tag) * gradient[12 * m + n] * own[n / 3][n % 3];
+      place[k] = solid.node_place(face.nodes[k]);
+    add(face.nodes, corner_area_gradient(place), solid.pressure(face.tag));
   }
-  return result;
+  const auto size = static_cast<Eigen::Index>(3 * mesh.nodes.size());
+  Tangent tangent(size, size);
+  tangent.setFromTriplets(entries.begin(), entries.end());
+  return tangent;
+}
+
+// One entry per component of each node.
+inline Eigen::VectorXd as_column(const std::vector<Vector3> &field) {
+  Eigen::VectorXd column(static_cast<Eigen::Index>(3 * field.size()));
+  for (std::size_t m = 0; m < 3 * field.size(); ++m)
+    column[static_cast<Eigen::Index>(m)] = field[m / 3][m % 3];
+  return column;
 }
 
 } // namespace platen::fem

@@ -1,5 +1,6 @@
-#include "dem/laws/coulomb_friction.h"
+// Coulomb friction, and the laws by which it weakens.
 #include "base/pi.h"
+#include "dem/laws/coulomb_friction.h"
 
 #include <gtest/gtest.h>
 
@@ -7,32 +8,15 @@
 #include <cmath>
 #include <limits>
 
+#include "dem/laws/friction_law.h"
 #include "dem/laws/rotating_plane.h"
+#include "sphere_scene.h"
 
 namespace platen::dem {
 namespace {
 
 constexpr double k = 2e5; // N/m
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-TEST(coulomb_friction, the_spring_holds_up_to_the_static_limit_and_then_slides_at_the_dynamic_one) {
-  const CoulombFriction friction{{0.5, 0.3}};
-  CoulombFriction::State state;
-  const double normal = 10, step = 1e-7;
-  double path = 0;
-  while (path * k + step * k <= 0.5 * normal) {
-    path += step;
-    const auto r = friction(state, {step, 0, 0}, normal, k);
-    ASSERT_NEAR(r.force.x, k * path, 1e-12 * normal);
-    ASSERT_EQ(r.dissipated, 0.0);
-    ASSERT_EQ(state.sliding, 0);
-  }
-  for (int n = 0; n < 100; ++n) {
-    const auto r = friction(state, {step, 0, 0}, normal, k);
-    ASSERT_NEAR(r.force.x, 0.3 * normal, 1e-15 * normal);
-    ASSERT_EQ(state.sliding, 1);
-  }
-}
 
 // Back off until the trial is below the dynamic limit: it sticks, and the static limit holds again.
 TEST(coulomb_friction, it_sticks_again_below_the_dynamic_limit_and_then_holds_to_the_static_one) {
@@ -84,14 +68,6 @@ TEST(coulomb_friction, loss_of_the_normal_force_releases_the_spring) {
   EXPECT_NEAR(r.dissipated, 5.0 / (2 * k), 1e-18); // all that was stored
 }
 
-TEST(coulomb_friction, without_a_limit_it_never_slides) {
-  const CoulombFriction friction{{infinite, infinite}};
-  CoulombFriction::State state;
-  const auto r = friction(state, {1, 0, 0}, 1e-9, k);
-  EXPECT_EQ(r.force.x, k);
-  EXPECT_EQ(state.sliding, 0);
-}
-
 // A dynamic coefficient above the static one must not push: the force never exceeds the trial.
 TEST(coulomb_friction, a_larger_dynamic_coefficient_never_adds_energy) {
   const CoulombFriction friction{{0.3, 0.5}};
@@ -105,23 +81,27 @@ TEST(coulomb_friction, a_larger_dynamic_coefficient_never_adds_energy) {
   }
 }
 
-// Stored energy + loss = work of the mean force, step by step, whatever the path and the normal force do.
-// That is an identity; the tolerance is round-off of 1e5 terms.
+// Stored energy + loss = work of the mean force, step by step, by every law, whatever the path and the normal
+// force do. That is an identity; the tolerance is round-off of 1e5 terms.
 TEST(coulomb_friction, work_is_stored_or_lost_to_the_last_digit) {
-  const CoulombFriction friction{{0.5, 0.3}};
-  CoulombFriction::State state;
-  double work = 0, lost = 0;
-  for (int n = 0; n < 100000; ++n) {
-    const double t = 1e-3 * n;
-    const Vector3 stretch = {3e-7 * std::sin(t), 2e-7 * std::cos(1.7 * t), 0};
-    const double normal = 10 * (0.8 + std::sin(0.31 * t)); // lets go at times
-    const Vector3 before = state.spring;
-    const auto r = friction(state, stretch, normal, k);
-    work += dot(0.5 * (before + r.force), stretch);
-    lost += r.dissipated;
+  using By = Weakening::By;
+  for (const By by : {By::nothing, By::slip, By::velocity}) {
+    const FrictionLaw law = friction_law({0.5, 0.3, {by, 3e-6, 1e-4}});
+    CoulombFriction::State state;
+    double work = 0, lost = 0;
+    for (int n = 0; n < 100000; ++n) {
+      const double t = 1e-3 * n, normal = 10 * (0.8 + std::sin(0.31 * t)); // lets go at times
+      const Vector3 stretch = {3e-7 * std::sin(t), 2e-7 * std::cos(1.7 * t), 0}, before = state.spring;
+      const CoulombFriction::Result r = by == By::nothing
+                                            ? std::get<CoulombFriction>(law)(state, stretch, normal, k)
+                                            : slide_weakening(law, state, stretch, normal, k, 1e-3);
+      work += dot(0.5 * (before + r.force), stretch);
+      lost += r.dissipated;
+      ASSERT_LE(norm(r.force), 0.5 * std::max(normal, 0.0) * (1 + 1e-14));
+    }
+    EXPECT_GT(lost, 1e-4);
+    EXPECT_NEAR(work, lost + 0.5 * norm_squared(state.spring) / k, 1e-11 * lost);
   }
-  EXPECT_GT(lost, 1e-4);
-  EXPECT_NEAR(work, lost + 0.5 * norm_squared(state.spring) / k, 1e-11 * lost);
 }
 
 // Two million stick-slip steps in a turning plane: the limit is never passed, the spring stays in its plane.
@@ -195,5 +175,123 @@ TEST(rotating_plane, spin_turns_about_the_normal) {
   }
 }
 
+constexpr double normal = 10;            // N
+constexpr double mu_s = 0.5, mu_d = 0.2; // 1
+constexpr double s_0 = 1e-4, v_0 = 0.02; // m, m/s
+constexpr double round_off = 1e-13;      // of a force
+const SlipWeakeningFriction by_slip{{mu_s, mu_d, s_0}};
+
+double coefficient(double s) {
+  return mu_d + (mu_s - mu_d) * s_0 / (s_0 + s);
+}
+
+struct Drag {
+  double path = 0, lost = 0;
+  CoulombFriction::State state;
+};
+
+Drag drag(const SlipWeakeningFriction &friction, double way, int steps) {
+  Drag d;
+  for (int n = 0; n < steps; ++n) {
+    d.lost += friction(d.state, {way / steps, 0, 0}, normal, k).dissipated;
+    d.path += way / steps;
+  }
+  return d;
+}
+
+TEST(slip_weakening_friction, drawn_one_way_it_follows_the_curve_of_its_own_slip) {
+  CoulombFriction::State state;
+  double path = 0, last = mu_s * normal;
+  for (int n = 0; n < 5000; ++n) {
+    const double step = 1e-7;
+    path += step;
+    const auto r = by_slip(state, {step, 0, 0}, normal, k);
+    ASSERT_NEAR(state.slip, path - r.force.x / k, 1e-12 * path); // what the spring does not hold has slid
+    if (k * path <= mu_s * normal) {
+      ASSERT_EQ(state.sliding, 0);
+      continue;
+    }
+    ASSERT_EQ(state.sliding, 1);
+    ASSERT_NEAR(r.force.x, coefficient(state.slip) * normal, round_off * normal);
+    ASSERT_LT(r.force.x, last);
+    last = r.force.x;
+  }
+  EXPECT_GT(state.slip, 4 * s_0);
+}
+
+// Integral of mu N over s, N (mu_d s + (mu_s - mu_d) s_0 ln(1 + s / s_0)), to second order in the step.
+TEST(slip_weakening_friction, it_dissipates_the_integral_of_its_law) {
+  double error[2];
+  for (int level = 0; level < 2; ++level) {
+    const Drag d = drag(by_slip, 5e-4, 1000 << level);
+    const double s = d.state.slip;
+    error[level] = d.lost - normal * (mu_d * s + (mu_s - mu_d) * s_0 * std::log1p(s / s_0));
+    EXPECT_LT(std::abs(error[level]), 1e-4 * d.lost);
+  }
+  EXPECT_LT(std::abs(error[1]), 0.4 * std::abs(error[0])); // a quarter but for the step in which it begins
+}
+
+// (mu_s - mu_d) N / s_0 = 300 k: no equilibrium near the old one; the one that is found lies on the curve.
+TEST(slip_weakening_friction, steeper_than_its_spring_it_jumps_to_the_curve) {
+  const SlipWeakeningFriction steep{{mu_s, mu_d, (mu_s - mu_d) * normal / (300 * k)}};
+  CoulombFriction::State state;
+  const double way = 1.01 * mu_s * normal / k;
+  const auto r = steep(state, {way, 0, 0}, normal, k);
+  EXPECT_NEAR(r.force.x, steep.coefficient(r.slip) * normal, round_off * normal);
+  EXPECT_NEAR(r.slip, way - r.force.x / k, 1e-12 * way);
+  EXPECT_LT(r.force.x, 1.1 * mu_d * normal);
+}
+
+TEST(slip_weakening_friction, rest_heals_nothing_and_parting_all) {
+  Drag d = drag(by_slip, 5e-4, 1000);
+  by_slip(d.state, {-1e-6, 0, 0}, normal, k);
+  EXPECT_EQ(d.state.sliding, 0);
+  const double slid = d.state.slip;
+  for (int n = 0; n < 3; ++n)
+    by_slip(d.state, {1e-6, 0, 0}, normal, k);
+  EXPECT_NEAR(norm(d.state.spring), coefficient(d.state.slip) * normal, round_off * normal);
+  EXPECT_GT(d.state.slip, slid);
+  by_slip(d.state, {}, 0, k);
+  EXPECT_EQ(d.state.slip, 0);
+  EXPECT_EQ(norm(d.state.spring), 0);
+}
+
+TEST(velocity_weakening_friction, drawn_at_a_speed_it_slides_at_its_coefficient) {
+  const VelocityWeakeningFriction friction{{mu_s, mu_d, v_0}};
+  constexpr double step = 1e-7; // m
+  for (const double speed : {1e-6 * v_0, 0.5 * v_0, v_0, 3 * v_0, 1000 * v_0}) {
+    const double expected = (mu_d + (mu_s - mu_d) * std::exp(-speed / v_0)) * normal;
+    CoulombFriction::State state;
+    double lost = 0;
+    for (int n = 0; n < 1000; ++n)
+      lost += friction(state, {step, 0, 0}, normal, k, step / speed).dissipated;
+    EXPECT_NEAR(norm(state.spring), expected, round_off * normal) << speed;
+    EXPECT_NEAR(state.slip, 1000 * step - expected / k, 1e-12 * state.slip) << speed;
+    EXPECT_NEAR(lost, expected * state.slip, expected * step) << speed; // the step in which it begins
+  }
+}
+
 } // namespace
 } // namespace platen::dem
+
+namespace platen::coupling {
+namespace {
+
+// A sphere drawn over a plate for 0.4 mm: force, slip and work of the layer are those of the law.
+TEST(friction_law, a_layer_hands_the_slip_from_step_to_step) {
+  SurfaceContact contact = frictional(0.5, 0.2);
+  contact.weakening = {dem::Weakening::By::slip, 1e-4, 0};
+  SphereScene scene(plate(0.01, 40), {{-0.002, 0.0003, 0.99 * sphere_radius}}, contact, false);
+  scene.particles.velocity[0] = {0.4, 0, 0};
+  for (int n = 0; n < 1000; ++n)
+    scene.carry(1e-6);
+  const ActiveContact found = scene.layer.contacts().at(0);
+  const double normal = stiffness * 0.01 * sphere_radius, s = found.slip;
+  EXPECT_NEAR(s, 0.4e-3 - norm(found.shear) / (0.8 * stiffness), 1e-12);
+  EXPECT_NEAR(norm(found.shear), (0.2 + 0.3 * 1e-4 / (1e-4 + s)) * normal, 1e-9 * normal);
+  EXPECT_NEAR(scene.layer.friction_work, normal * (0.2 * s + 0.3 * 1e-4 * std::log1p(s / 1e-4)),
+              1e-3 * scene.layer.friction_work);
+}
+
+} // namespace
+} // namespace platen::coupling

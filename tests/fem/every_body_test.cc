@@ -1,0 +1,145 @@
+// What holds of every body: it goes on from its state to the last bit, on any number of threads, and its
+// picture repeats.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "base/parallel.h"
+#include "fem/rigid_body.h"
+#include "tests/fem/elastic_plate.h"
+#include "tests/fem/rubber_sleeve.h"
+#include "tests/same_state.h"
+
+namespace platen::fem {
+namespace {
+
+// Loads that change, and take energy.
+template <class Solid>
+void load(Solid &solid, int k, double size, double dashpot) {
+  solid.clear_loads();
+  for (std::size_t v = 0; v < solid.surface().vertices.size(); v += 3)
+    solid.add_surface_force(static_cast<int>(v),
+                            size * std::cos(k + static_cast<double>(v)) * Vector3{0.2, -0.1, 1} -
+                                dashpot * solid.surface().velocities[v]);
+}
+
+struct OfPlate {
+  static void step(Body &body, int k) {
+    constexpr double dt = 3e-7;
+    body.kick(0.5 * dt), body.drift(dt);
+    load(body, k, 1e3, 1e3);
+    body.kick(0.5 * dt);
+  }
+};
+struct Rigid : OfPlate {
+  static constexpr const char *name = "rigid";
+  static RigidBody make() {
+    RigidBody body(plate(), steel);
+    body.set_velocity({0.1, -0.2, 0.3}, {3, -2, 5});
+    return body;
+  }
+};
+struct RigidOnSeat : OfPlate {
+  static constexpr const char *name = "rigid_on_a_seat";
+  static RigidBody make() {
+    RigidBody body(plate(), steel, Vector3{0.01, 0, 0.02});
+    body.set_velocity({0.1, 0, -0.2}, {3, -2, 1});
+    return body;
+  }
+};
+template <ElasticMotion motion>
+struct Elastic : OfPlate {
+  static constexpr bool is_static = motion == ElasticMotion::quasi_static;
+  static constexpr const char *name = is_static ? "quasi_static" : "elastic";
+  static ElasticSolid make() {
+    Clamp clamp;
+    clamp.turns = true;
+    clamp.seat = {0.01, 0, 0.02};
+    ElasticSolid solid(make_grid(CylinderPlate{0.03, 0.02, 0, 12, 3}), {steel}, clamp,
+                       {is_static ? 1 : 2, motion});
+    solid.set_velocity({0, 0, -0.2});
+    return solid;
+  }
+  static void step(ElasticSolid &solid, int k) {
+    if (is_static && k % 10 == 0) solid.aim(solid.contact_loads(), 3e-6);
+    OfPlate::step(solid, k);
+  }
+};
+struct OfRubber {
+  static constexpr const char *name = "rubber";
+  static HyperelasticSolid make() {
+    HyperelasticSolid solid = held_sleeve(2e4);
+    solid.set_damping(50);
+    solid.set_prescribed_velocity(1, {0, 0, -0.3}, {0.1, 0.2, 5}, {0, 0, 0.06});
+    return solid;
+  }
+  static void step(HyperelasticSolid &solid, int k) {
+    load(solid, k, 0.1, 0.01);
+    fem::step(solid, 1e-5, 1);
+  }
+};
+
+template <class Kind>
+class EveryBody : public testing::Test {};
+struct NameOf {
+  template <class Kind>
+  static std::string GetName(int) {
+    return Kind::name;
+  }
+};
+using Kinds = testing::Types<Rigid, RigidOnSeat, Elastic<ElasticMotion::explicit_steps>,
+                             Elastic<ElasticMotion::quasi_static>, OfRubber>;
+TYPED_TEST_SUITE(EveryBody, Kinds, NameOf);
+
+TYPED_TEST(EveryBody, goes_on_from_its_state_to_the_last_bit) {
+  auto body = TypeParam::make(), other = TypeParam::make();
+  const auto go = [](auto &of, int first, int last) {
+    for (int k = first; k < last; ++k)
+      TypeParam::step(of, k);
+  };
+  go(body, 0, 27), go(other, 0, 2); // with loads that have to go
+  set_state(other, state_of(body));
+  EXPECT_TRUE(same_state(body, other));
+  EXPECT_EQ(other.surface().vertices, body.surface().vertices);
+  EXPECT_EQ(other.surface().velocities, body.surface().velocities);
+  EXPECT_EQ(other.contact_loads(), body.contact_loads());
+  go(body, 27, 60), go(other, 27, 60);
+  EXPECT_TRUE(same_state(body, other));
+  EXPECT_EQ(other.surface().vertices, body.surface().vertices);
+  EXPECT_THROW(set_state(other, State()), StateError);
+  EXPECT_TRUE(same_state(body, other));
+}
+
+TYPED_TEST(EveryBody, any_number_of_threads_gives_the_same_bits) {
+  std::vector<State> ends;
+  for (const int threads : {1, 2, 4}) {
+    const ThreadLimit limit(threads);
+    auto body = TypeParam::make();
+    for (int k = 0; k < 15; ++k)
+      TypeParam::step(body, k);
+    ends.push_back(state_of(body));
+  }
+  EXPECT_TRUE(same_state(ends[0], ends[1]));
+  EXPECT_TRUE(same_state(ends[0], ends[2]));
+}
+
+TYPED_TEST(EveryBody, has_a_picture_that_names_its_fields_and_repeats) {
+  auto body = TypeParam::make();
+  TypeParam::step(body, 0);
+  std::ostringstream first, second;
+  body.write_vtu(first, {});
+  body.write_vtu(second, std::vector<double>(body.surface().vertices.size(), 0.0));
+  std::vector<std::string> fields{"displacement", "contact_pressure", "contact_shear", "slip"};
+  const std::string name = TypeParam::name;
+  if (name.find("rigid") == std::string::npos) fields.insert(fields.end(), {"stress", "von_mises"});
+  if (name == "rubber") fields.insert(fields.end(), {"pressure", "J"});
+  for (const std::string &field : fields)
+    EXPECT_NE(first.str().find('"' + field + '"'), std::string::npos) << field;
+  EXPECT_NE(first.str().find("compressor=\"vtkZLib"), std::string::npos);
+  EXPECT_EQ(first.str(), second.str());
+  EXPECT_THROW(body.write_vtu(first, {1.0}), std::invalid_argument);
+}
+
+} // namespace
+} // namespace platen::fem
