@@ -55,23 +55,14 @@ BondRig::BondRig(const Scene &scene)
   for (std::size_t k = 0; k < spheres; ++k)
     row_[static_cast<std::size_t>(model_.particles.id[k])] = k;
   fixed_.assign(spheres, {true, true, true, true, true, true});
-  const auto set_free = [&](std::size_t sphere, std::initializer_list<std::size_t> coordinates) {
-    for (const std::size_t c : coordinates)
-      fixed_[sphere][c] = false;
-  };
   const PairPath path = pair_test_of(scene).path;
-  if (is_pyramid(scene)) {
-    if (pair_test_of(scene).plate != PairPlate::sticking)
-      for (const std::size_t base : {1u, 2u})
-        set_free(base, {0, 4});
-  } else if (path == PairPath::shear || path == PairPath::twisting) {
-    driven_ = path == PairPath::shear ? 0 : 5;
-    set_free(0, {2});
-  } else if (path == PairPath::bending) {
-    driven_ = 4;
-    set_free(0, {0, 2});
-  }
-  set_free(0, {driven_});
+  if (path == PairPath::shear) driven_ = 0;
+  if (path == PairPath::bending) driven_ = 4, fixed_[0][0] = false;
+  if (path == PairPath::twisting) driven_ = 5;
+  fixed_[0][2] = fixed_[0][driven_] = false; // the line of centres stays free on every path
+  if (is_pyramid(scene) && pair_test_of(scene).plate != PairPlate::sticking)
+    for (const std::size_t base : {1u, 2u})
+      fixed_[base][0] = fixed_[base][4] = false;
   check_time_step();
 }
 
@@ -98,14 +89,6 @@ double &BondRig::speed(std::size_t sphere, std::size_t c) {
 double &BondRig::load(std::size_t sphere, std::size_t c) {
   dem::Particles &p = model_.particles;
   return (c < 3 ? p.force : *p.torque)[row_[sphere]][static_cast<int>(c % 3)];
-}
-
-// What bonds and contacts exert, as it stands after compute_forces: the rig has no weight, and its few
-// spheres are one block, so that nothing waits in ghosts.
-void BondRig::take_loads() {
-  for (std::size_t s = 0; s < row_.size(); ++s)
-    for (std::size_t c = 0; c < coordinates_; ++c)
-      loads_[s][c] = load(s, c);
 }
 
 // What the rig has to put on the driven coordinate to hold it.
@@ -146,7 +129,11 @@ void BondRig::step() {
   prescribe_coordinates();
   model_.begin_step(dt_);
   model_.compute_forces(dt_);
-  take_loads();
+  // What bonds and contacts exert: the rig has no weight, and its few spheres are one block, so that nothing
+  // waits in ghosts.
+  for (std::size_t s = 0; s < row_.size(); ++s)
+    for (std::size_t c = 0; c < coordinates_; ++c)
+      loads_[s][c] = load(s, c);
   if (by_load_) load(0, driven_) += applied_;
   if (rolls_) roll();
   model_.end_step(dt_);
@@ -218,8 +205,7 @@ BondReading BondRig::move_to(double displacement) {
 BondReading BondRig::read() const {
   const dem::Particles &p = model_.particles;
   BondReading r;
-  const double load = by_load_ ? applied_ : driven_load();
-  (driven_ < 3 ? r.force : r.moment) = load;
+  (driven_ < 3 ? r.force : r.moment) = by_load_ ? applied_ : driven_load();
   (driven_ < 3 ? r.displacement : r.rotation) = driven_displacement();
   r.intact = static_cast<double>(model_.intact_bonds());
   const dem::Bonds &b = *model_.bonds;

@@ -42,7 +42,6 @@ private:
   BondReading settle();
   BondReading read() const;
   double imbalance() const;
-  void take_loads();
   double driven_load() const;
   double driven_displacement() const;
   void roll();

@@ -77,14 +77,19 @@ ComparedRun compared_run(const std::string &scene_file, std::vector<std::string>
   const dem::Model model(touching_spheres(scene), pair_settings(scene));
   ClosedForm ahead(scene, *model.bonds), beside = ahead;
   std::string places;
+  double last = 0;
+  const auto add = [&](double place) {
+    if (place == last) return;
+    places += (places.empty() ? "" : ", ") + shortest_text(place);
+    last = place;
+  };
   for (const double turn : turning_displacements(pair_test_of(scene))) {
     for (const double kink : ahead.kinks(turn))
-      places += shortest_text(kink) + ", ";
-    places += shortest_text(turn) + ", ";
+      add(kink);
+    add(turn);
     ahead.go(turn);
   }
-  overrides.insert(overrides.end(),
-                   {"Pair test/Displacement =", "Pair test/Turns = " + places.substr(0, places.size() - 2)});
+  overrides.insert(overrides.end(), {"Pair test/Displacement =", "Pair test/Turns = " + places});
   ComparedRun run{run_bond_tests(read()).at(0), {}, beside.length()};
   for (const BondReading &row : run.rows) {
     beside.go(turns(scene) ? row.rotation * scene.specimen.sphere_radius : row.displacement);
