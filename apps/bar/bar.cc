@@ -40,10 +40,11 @@ BarEnd end_within(const Particles &p, const std::vector<char> &in_piece, double 
   return end;
 }
 
-// How far spheres reach: a mean radius beyond the mean distance of those within `depth` of a wall at that
-// distance; to the wall where there are none.
+// Mean distance of the centres within `depth` of a wall at that distance; a mean radius before the wall where
+// there are none.
 template <class Distance>
-double reach(const Particles &p, double wall, double mean_radius, double depth, const Distance &distance) {
+double outermost(const Particles &p, double wall, double mean_radius, double depth,
+                 const Distance &distance) {
   double sum = 0;
   int count = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -52,18 +53,20 @@ double reach(const Particles &p, double wall, double mean_radius, double depth, 
     sum += x;
     ++count;
   }
-  return count > 0 ? mean_radius + sum / count : wall;
+  return count > 0 ? sum / count : wall - mean_radius;
 }
 
 CrossSection bounding_section(const Particles &p, const dem::Shape &shape, double mean_radius, double depth) {
   const auto width = [&](int axis, double half) {
-    return reach(p, half, mean_radius, depth, [&](const Vector3 &x) { return x[axis]; }) +
-           reach(p, half, mean_radius, depth, [&](const Vector3 &x) { return -x[axis]; });
+    double sum = 2 * mean_radius;
+    for (const int sign : {1, -1})
+      sum += outermost(p, half, mean_radius, depth, [&](const Vector3 &x) { return sign * x[axis]; });
+    return sum;
   };
   if (shape.kind == dem::ShapeKind::box)
     return {false, 0, width(0, 0.5 * shape.width_x), width(1, 0.5 * shape.width_y)};
   const auto from_axis = [](const Vector3 &x) { return std::hypot(x.x, x.y); };
-  return {true, reach(p, shape.radius, mean_radius, depth, from_axis), 0, 0};
+  return {true, mean_radius + outermost(p, shape.radius, mean_radius, depth, from_axis), 0, 0};
 }
 
 double own_inertia(const Particles &p, std::size_t i) { // over the mass
