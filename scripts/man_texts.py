@@ -12,7 +12,7 @@ MORE = {
     ],
     "platen-bonds": [
         "The test is that of the scene's section Pair test: tension, compression, shear, cycles, combined opening and slip, bending, "
-        "twisting. Load and displacement stand in bonds.csv beside the loads by hand.",
+        "twisting. Load and displacement stand in bonds.csv.",
     ],
     "platen-bar": [
         "The test is that of the scene's section Bar test. Deflections and frequencies stand beside those of strength of "
@@ -105,7 +105,7 @@ OF_ALL = [("scene.prm", "All entries as used."), ("summary.json", "Results; writ
 FILES = {
     "platen": [],
     "platen-pack": [("specimen.csv, specimen.vtu", "The spheres."), ("directions.csv", "Contacts by direction."), *OF_ALL],
-    "platen-bonds": [("bonds.csv", "Load paths, measured and by hand."), *OF_ALL],
+    "platen-bonds": [("bonds.csv", "Load paths."), *OF_ALL],
     "platen-bar": [("history.csv", "A row a sample of each load."), *OF_ALL],
     "platen-compress": OF_RUNS,
     "platen-brazilian": OF_RUNS,

@@ -1,7 +1,6 @@
 #include "apps/bar/bar.h"
 
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 
 #include "dem/measure/bond_network.h"
@@ -15,23 +14,37 @@ using dem::Particles;
 // Part of the length, about the middle, over which sections are measured.
 constexpr double measured_share = 0.5;
 
-BarEnd end_within(const Particles &p, const std::vector<char> &in_piece, double plane, double depth,
-                  int sign) {
+// Half the thickness of the slices at a quarter and half of the length, in mean radii.
+constexpr double slice = 2;
+
+// Those of the piece that `within` takes.
+template <class Within>
+BarEnd spheres_of(const Particles &p, const std::vector<char> &in_piece, const Within &within) {
   BarEnd end;
   for (std::size_t i = 0; i < p.size(); ++i)
-    if (in_piece[i] && sign * (plane - p.reference_position[i].z) - p.radius[i] <= depth) {
+    if (in_piece[i] && within(i)) {
       end.rows.push_back(i);
       end.z += p.reference_position[i].z;
     }
-  if (end.rows.empty())
-    throw std::invalid_argument("no bonded sphere lies within Bar test/End depth of an end of the bar");
   end.z /= static_cast<double>(end.rows.size());
   return end;
 }
 
-// Mean distance from the middle of what lies within `depth` of a wall at that distance; nothing of none.
+BarEnd end_within(const Particles &p, const std::vector<char> &in_piece, double plane, double depth,
+                  int sign) {
+  BarEnd end = spheres_of(p, in_piece, [&](std::size_t i) {
+    return sign * (plane - p.reference_position[i].z) - p.radius[i] <= depth;
+  });
+  if (end.rows.empty())
+    throw std::invalid_argument("no bonded sphere lies within Bar test/End depth of an end of the bar");
+  return end;
+}
+
+// Mean distance of the centres within `depth` of a wall at that distance; a mean radius before the wall where
+// there are none.
 template <class Distance>
-std::optional<double> mean_at_wall(const Particles &p, double wall, double depth, const Distance &distance) {
+double outermost(const Particles &p, double wall, double mean_radius, double depth,
+                 const Distance &distance) {
   double sum = 0;
   int count = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -40,21 +53,20 @@ std::optional<double> mean_at_wall(const Particles &p, double wall, double depth
     sum += x;
     ++count;
   }
-  return count > 0 ? std::optional(sum / count) : std::nullopt;
+  return count > 0 ? sum / count : wall - mean_radius;
 }
 
-Section bounding_section(const Particles &p, const dem::Shape &shape, double mean_radius, double depth) {
+CrossSection bounding_section(const Particles &p, const dem::Shape &shape, double mean_radius, double depth) {
   const auto width = [&](int axis, double half) {
     double sum = 2 * mean_radius;
     for (const int sign : {1, -1})
-      sum += mean_at_wall(p, half, depth, [&](const Vector3 &x) { return sign * x[axis]; }).value_or(half);
+      sum += outermost(p, half, mean_radius, depth, [&](const Vector3 &x) { return sign * x[axis]; });
     return sum;
   };
   if (shape.kind == dem::ShapeKind::box)
     return {false, 0, width(0, 0.5 * shape.width_x), width(1, 0.5 * shape.width_y)};
-  const auto mean =
-      mean_at_wall(p, shape.radius, depth, [](const Vector3 &x) { return std::hypot(x.x, x.y); });
-  return {true, mean ? mean_radius + *mean : shape.radius, 0, 0};
+  const auto from_axis = [](const Vector3 &x) { return std::hypot(x.x, x.y); };
+  return {true, mean_radius + outermost(p, shape.radius, mean_radius, depth, from_axis), 0, 0};
 }
 
 double own_inertia(const Particles &p, std::size_t i) { // over the mass
@@ -105,6 +117,13 @@ BarGeometry measure_bar(const Particles &p, const dem::Bonds &bonds, const dem::
   g.high = end_within(p, g.in_piece, shape.height, layer, 1);
   g.bottom = g.low.z - g.mean_radius;
   g.top = g.high.z + g.mean_radius;
+  const auto slice_at = [&](double z) {
+    return spheres_of(p, g.in_piece, [&](std::size_t i) {
+      return std::abs(p.reference_position[i].z - z) <= slice * g.mean_radius;
+    });
+  };
+  g.quarter = slice_at(g.top - 0.25 * g.length());
+  g.half = slice_at(g.top - 0.5 * g.length());
   g.bounding = bounding_section(p, shape, g.mean_radius, layer);
   const double middle = 0.5 * (g.bottom + g.top), reach = 0.5 * measured_share * g.length();
   const dem::Gyration force = dem::bond_gyration(p, bonds, middle - reach, middle + reach),

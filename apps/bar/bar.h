@@ -12,7 +12,7 @@
 
 namespace platen::apps {
 
-// The spheres of one end.
+// Spheres of one end, or of a slice.
 struct BarEnd {
   std::vector<std::size_t> rows;
   double z = 0; // m, mean of their centres
@@ -30,13 +30,14 @@ struct BarGeometry {
   std::vector<char> in_piece; // of each row: whether it belongs to the largest bonded piece
   std::size_t loose = 0;      // spheres that do not
   BarEnd low, high;           // within the depth of the end planes
+  BarEnd quarter, half;       // slices at a quarter and half of the length from the upper end
   double mean_radius = 0;     // m, of all spheres
-  double bottom = 0,
-         top = 0; // m, end planes of the perfect bar: a mean radius beyond the centres of the ends
+  // m, end planes of the perfect bar: a mean radius beyond the centres of the ends
+  double bottom = 0, top = 0;
   double length() const { return top - bottom; } // m
-  Section bounding;                              // of the perfect bar
-  Section effective; // that carries forces (dem/measure/bond_network.h); of the middle half of the length
-  Section mass;      // of inertia of rotation, likewise
+  CrossSection bounding;                         // of the perfect bar
+  // That carries forces (dem/measure/bond_network.h), and of inertia of rotation; of the middle half.
+  CrossSection effective, mass;
   double mass_per_length = 0; // kg/m
   bool along_x = true;
 };

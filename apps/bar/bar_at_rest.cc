@@ -27,21 +27,15 @@ void hold_along_axis(dem::StaticCase &load, const BarEnd &end, double stiffness,
   }
 }
 
-// Strain k of six: the three stretches, then the three shears.
-dem::Tensor unit_strain(std::size_t k) {
-  dem::Tensor e{};
-  if (k < 3) {
-    e[k][k] = small_strain;
-  } else {
-    const std::size_t a = k == 3 ? 1 : 0, b = k == 5 ? 1 : 2;
-    e[a][b] = e[b][a] = small_strain;
-  }
-  return e;
-}
+// Axes of six strains: three stretches, three shears.
+constexpr int axes[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
 
-Vector3 product(const dem::Tensor &t, const Vector3 &x) {
-  return {t[0][0] * x.x + t[0][1] * x.y + t[0][2] * x.z, t[1][0] * x.x + t[1][1] * x.y + t[1][2] * x.z,
-          t[2][0] * x.x + t[2][1] * x.y + t[2][2] * x.z};
+// m, displacement of a place (m) under such a strain.
+Vector3 strained(const Vector3 &place, const int (&axes_of)[2]) {
+  Vector3 moved;
+  moved[axes_of[0]] = small_strain * place[axes_of[1]];
+  moved[axes_of[1]] = small_strain * place[axes_of[0]];
+  return moved;
 }
 
 // The shape with `margin` taken off all round.
@@ -60,7 +54,8 @@ Vector3 across(bool along_x) {
 
 } // namespace
 
-Rod rod_at_rest(const BarGeometry &bar, double axial_rigidity, double poisson_ratio, const Section &section) {
+Rod rod_at_rest(const BarGeometry &bar, double axial_rigidity, double poisson_ratio,
+                const CrossSection &section) {
   return {bar.high.z - bar.low.z,
           axial_rigidity,
           poisson_ratio,
@@ -68,25 +63,6 @@ Rod rod_at_rest(const BarGeometry &bar, double axial_rigidity, double poisson_ra
           section,
           bar.mass,
           bar.along_x};
-}
-
-double load_of_strain(const Rod &rod, BarLoad load, double strain) {
-  const double skin = rod.section.skin(rod.along_x);
-  if (load == BarLoad::tension) return strain * rod.axial_rigidity;
-  if (load == BarLoad::bending) return strain * rod.bending_rigidity() / (skin * rod.length);
-  return strain * rod.torsion_rigidity() / skin;
-}
-
-double response_of(const Rod &rod, BarLoad load, double size) {
-  if (load == BarLoad::tension) return rod.stretch(size);
-  if (load == BarLoad::bending) return rod.deflection_with_shear(size);
-  return rod.twist(size);
-}
-
-double frequency_of(const Rod &rod, BarLoad load) {
-  if (load == BarLoad::tension) return rod.axial_frequency();
-  if (load == BarLoad::bending) return rod.bending_frequency_with_shear();
-  return rod.torsion_frequency();
 }
 
 double along(BarLoad load, const EndMotion &end, bool along_x) {
@@ -139,11 +115,10 @@ dem::Moduli bulk_moduli(const dem::Model &model, const BarGeometry &bar, const d
   const dem::Particles &p = model.particles;
   std::array<dem::Tensor, 6> strain, stress;
   for (std::size_t k = 0; k < 6; ++k) {
-    const dem::Tensor e = unit_strain(k);
     dem::StaticCase load;
     for (std::size_t i = 0; i < p.size(); ++i)
       if (wall_clearance(shape, p.reference_position[i]) - p.radius[i] <= skin_depth * mean_radius)
-        load.prescribed.push_back({static_cast<int>(i), product(e, p.reference_position[i]), {}});
+        load.prescribed.push_back({static_cast<int>(i), strained(p.reference_position[i], axes[k]), {}});
     const dem::StaticState state = solve_static(p, *model.bonds, load);
     strain[k] = mean_strain(region, p, state.displacement, bar.in_piece);
     stress[k] = mean_stress(region, p, *model.bonds, state.displacement, state.turn);

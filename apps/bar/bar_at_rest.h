@@ -17,15 +17,8 @@ struct StaticTest {
 };
 
 // The rod between the middles of the clamped and of the loaded spheres.
-Rod rod_at_rest(const BarGeometry &bar, double axial_rigidity, double poisson_ratio, const Section &section);
-
-// The load under which `rod` has the strain at its skin where it is clamped; N, N m. Load is tension, bending
-// or torsion.
-double load_of_strain(const Rod &rod, BarLoad load, double strain);
-// What strength of materials says of it: m, rad; bending with shear.
-double response_of(const Rod &rod, BarLoad load, double size);
-// Its lowest frequency in that motion, 1/s; bending with shear.
-double frequency_of(const Rod &rod, BarLoad load);
+Rod rod_at_rest(const BarGeometry &bar, double axial_rigidity, double poisson_ratio,
+                const CrossSection &section);
 
 // What the end has moved along the load: m, rad.
 double along(BarLoad load, const EndMotion &end, bool along_x);

@@ -19,7 +19,7 @@ struct BarSample {
   double struck_velocity = 0, far_velocity = 0; // m/s along z, means of the two ends
   double quarter = 0, half = 0; // m along z, means at a quarter and half of the length from the struck end
   double kinetic = 0;           // J
-  double initial_energy = 0;    // J, kinetic and stored, when it was released or struck
+  double residual = 0;          // J, change of kinetic and stored energy since it was released or struck
   dem::EnergyShares energy;     // J
   long broken_tension = 0, broken_shear = 0;
 };

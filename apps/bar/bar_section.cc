@@ -16,15 +16,18 @@ void declare_bar_test(Parameters &parameters, Scene &scene) {
       {{"both", BarMethod::both}, {"static", BarMethod::at_rest}, {"dynamic", BarMethod::dynamic}},
       "Static: the bar at rest under the load. Dynamic: it is let go from there and oscillates; an impact is "
       "dynamic.");
-  section.entry<BarSide>("Bent along", bar.side, {{"x", BarSide::x}, {"y", BarSide::y}},
-                         "The way in which bending pushes the free end.");
+  section
+      .entry<BarSide>("Bent along", bar.side, {{"x", BarSide::x}, {"y", BarSide::y}},
+                      "The way in which bending pushes the free end.")
+      .only_if("Bar test/Load", {"bending", "all"});
   section.number("Strain", bar.strain, above_up_to(0, 0.01),
                  "Size of the load: strain at the skin of the clamped end by strength of materials; impact: "
                  "speed of the struck end over that of the wave.");
   section.number("End depth", bar.end_depth, between(0.05, 10),
                  "Spheres whose surface is within this many mean radii of an end plane are clamped, loaded "
                  "or struck.");
-  section.number("Periods", bar.periods, between(4, 1000), "Recorded of each oscillation.");
+  section.number("Periods", bar.periods, between(4, 1000), "Recorded of each oscillation.")
+      .unless("Bar test/Method", {"static"});
   section.entry("Bulk moduli", bar.bulk_moduli,
                 "Measure the moduli of the interior too, under six strains of its skin.");
 }
@@ -36,12 +39,8 @@ void bar_notes(const SceneCheck &check) {
     check.note(key, "a bar meets no platens");
   check.note("Output/Fields every", "platen-bar writes no frames");
   check.note("Checkpoint/Every", "platen-bar writes no checkpoints");
-  if (bar_test_of(check.scene()).method == BarMethod::at_rest) {
-    check.note("Bar test/Periods", "Bar test/Method = static");
-    if (check.scene().effects.contact) check.note("Effects/Contact", "Bar test/Method = static");
-  }
-  if (bar_test_of(check.scene()).load != BarLoad::bending && bar_test_of(check.scene()).load != BarLoad::all)
-    check.note("Bar test/Bent along", "nothing is bent");
+  if (bar_test_of(check.scene()).method == BarMethod::at_rest && check.scene().effects.contact)
+    check.note("Effects/Contact", "Bar test/Method = static");
 }
 
 void check_bar_test(const SceneCheck &check) {

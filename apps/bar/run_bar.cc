@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "apps/bar/bar_results.h"
-#include "apps/bar/bar_section.h"
 #include "apps/output/progress.h"
 #include "apps/output/stop_signal.h"
 #include "apps/run/app_output.h"
@@ -21,18 +20,12 @@ namespace {
 // Unless the scene says how often.
 constexpr double samples_per_period = 64, samples_of_an_impact = 400;
 
-std::vector<BarLoad> loads_of(BarLoad load) {
-  if (load == BarLoad::all) return {BarLoad::tension, BarLoad::bending, BarLoad::torsion};
-  if (load == BarLoad::impact || load == BarLoad::none) return {};
-  return {load};
-}
-
-long steps_between_samples(const Scene &scene, double step, double interval) {
-  const Interval &every = scene.output.every;
-  double steps = interval / step;
-  if (every.kind == Interval::Kind::steps) steps = every.value;
-  if (every.kind == Interval::Kind::time) steps = every.value / step;
-  return std::max(1L, static_cast<long>(steps));
+std::vector<BarLoad> loads_of(const BarTest &test) {
+  if (test.load == BarLoad::none) return {};
+  if (test.load != BarLoad::all) return {test.load};
+  std::vector<BarLoad> all{BarLoad::tension, BarLoad::bending, BarLoad::torsion};
+  if (test.method != BarMethod::at_rest) all.push_back(BarLoad::impact);
+  return all;
 }
 
 class BarRun {
@@ -49,15 +42,10 @@ public:
   int carry_out();
 
 private:
-  void test_loads();
-  void test_impact();
+  void test(BarLoad load);
+  void strike_bar();
   bool dynamic() const { return bar_test_of(scene_).method != BarMethod::at_rest; }
-  bool strikes() const {
-    return dynamic() &&
-           (bar_test_of(scene_).load == BarLoad::impact || bar_test_of(scene_).load == BarLoad::all);
-  }
-  long steps_of(BarLoad load) const;
-  long steps_of_impact() const;
+  Clocking clocking(BarLoad load) const;
   bool take(const BarSample &sample, BarLoad load);
   void finish(const dem::Model &model, const Motion &motion);
 
@@ -92,26 +80,31 @@ void BarRun::measure() {
   if (dynamic()) r.time = bar_time_step(scene_, model_);
   r.time_step = r.time.step;
   r.time_step_reason = r.time.reason;
-  planned_ = strikes() ? steps_of_impact() : 0;
   if (dynamic())
-    for (const BarLoad load : loads_of(bar_test_of(scene_).load))
-      planned_ += steps_of(load);
+    for (const BarLoad load : loads_of(bar_test_of(scene_)))
+      planned_ += clocking(load).steps;
 }
 
-long BarRun::steps_of(BarLoad load) const {
-  return static_cast<long>(
-      std::ceil(bar_test_of(scene_).periods /
-                (frequency_of(results_.oscillating_rod(true), load) * results_.time.step)));
-}
-
-long BarRun::steps_of_impact() const {
-  return static_cast<long>(std::ceil(followed_passages * results_.bar.length() /
-                                     (results_.rod(false).wave_speed() * results_.time.impact_step)));
+// How its motion is stepped and sampled.
+Clocking BarRun::clocking(BarLoad load) const {
+  const double step = results_.time.of(load);
+  const bool struck = load == BarLoad::impact;
+  const double frequency = struck ? 0 : results_.oscillating_rod(true).frequency(load);
+  const long steps = static_cast<long>(
+      std::ceil(struck ? followed_passages * results_.bar.length() / (results_.rod(false).wave_speed() * step)
+                       : bar_test_of(scene_).periods / (frequency * step)));
+  const double interval = struck ? step * static_cast<double>(steps) / samples_of_an_impact
+                                 : 1 / (samples_per_period * frequency);
+  const Interval &every = scene_.output.every;
+  const double between = every.kind == Interval::Kind::steps  ? every.value
+                         : every.kind == Interval::Kind::time ? every.value / step
+                                                              : interval / step;
+  return {step, steps, std::max(1L, static_cast<long>(between))};
 }
 
 std::string BarRun::description() const {
   const BarResults &r = results_;
-  const Section &b = r.bar.bounding;
+  const CrossSection &b = r.bar.bounding;
   std::string text = title_of(scene_);
   text += fmt::format("\n  {} spheres of mean radius {:.4g} mm, {} bonds, packing fraction {:.4f}\n",
                       r.particles, 1e3 * r.bar.mean_radius, r.bonds, r.packing_fraction);
@@ -141,45 +134,32 @@ bool BarRun::take(const BarSample &s, BarLoad load) {
 }
 
 void BarRun::finish(const dem::Model &model, const Motion &motion) {
-  results_.add(model, motion.steps);
+  results_.TestFigures::add(model, motion.steps);
   if (results_.steps > 0) results_.energy_residual.add(motion.energy_residual.value());
 }
 
-void BarRun::test_loads() {
+void BarRun::test(BarLoad load) {
+  if (load == BarLoad::impact) return strike_bar();
   const BarTest &test = bar_test_of(scene_);
-  for (const BarLoad load : loads_of(test.load)) {
-    if (signal_ != 0) return;
-    LoadResult result;
-    result.load = load;
-    result.keeps_static = test.method != BarMethod::dynamic;
-    result.at_rest =
-        load_bar(model_, results_.bar, load, load_of_strain(results_.rod(false), load, test.strain));
-    if (dynamic()) {
-      dem::Model oscillating(specimen_, settings_);
-      const double expected = frequency_of(results_.oscillating_rod(true), load);
-      Clocking clocking{results_.time.step, steps_of(load), 1};
-      clocking.every = steps_between_samples(scene_, clocking.step, 1 / (samples_per_period * expected));
-      result.oscillation = release(oscillating, results_.bar, load, result.at_rest.state, expected, clocking,
-                                   [&](const BarSample &s) { return take(s, load); });
-      finish(oscillating, *result.oscillation);
-    }
-    result.at_rest.state.displacement.clear();
-    result.at_rest.state.turn.clear();
-    results_.loads.push_back(std::move(result));
-  }
+  const StaticTest at_rest =
+      load_bar(model_, results_.bar, load, results_.rod(false).load_of_strain(load, test.strain));
+  if (test.method != BarMethod::dynamic) results_.add(load, at_rest);
+  if (!dynamic()) return;
+  dem::Model oscillating(specimen_, settings_);
+  const double expected = results_.oscillating_rod(true).frequency(load);
+  const Oscillation oscillation = release(oscillating, results_.bar, load, at_rest.state, expected,
+                                          clocking(load), [&](const BarSample &s) { return take(s, load); });
+  results_.add(load, oscillation);
+  finish(oscillating, oscillation);
 }
 
-void BarRun::test_impact() {
-  if (!strikes() || signal_ != 0) return;
+void BarRun::strike_bar() {
   dem::Model struck(specimen_, settings_);
-  const double speed = results_.rod(false).wave_speed();
-  results_.struck_velocity = bar_test_of(scene_).strain * speed;
-  Clocking clocking{results_.time.impact_step, steps_of_impact(), 1};
-  clocking.every = steps_between_samples(
-      scene_, clocking.step, clocking.step * static_cast<double>(clocking.steps) / samples_of_an_impact);
-  results_.impact = strike(struck, results_.bar, results_.struck_velocity, speed, clocking,
-                           [&](const BarSample &s) { return take(s, BarLoad::impact); });
-  finish(struck, *results_.impact);
+  const double speed = results_.rod(false).wave_speed(), velocity = bar_test_of(scene_).strain * speed;
+  const Impact impact = strike(struck, results_.bar, velocity, speed, clocking(BarLoad::impact),
+                               [&](const BarSample &s) { return take(s, BarLoad::impact); });
+  results_.add(impact, velocity);
+  finish(struck, impact);
 }
 
 int BarRun::carry_out() {
@@ -191,8 +171,8 @@ int BarRun::carry_out() {
   history_ = std::make_unique<CsvWriter>(output_.paths.history(), bar_columns());
   progress_ = std::make_unique<Progress>(output_.log);
   if (bar_test_of(scene_).bulk_moduli) results_.bulk = bulk_moduli(model_, results_.bar, specimen_.shape);
-  test_loads();
-  test_impact();
+  for (const BarLoad load : loads_of(bar_test_of(scene_)))
+    if (signal_ == 0) test(load);
   progress_.reset();
   results_.wall_seconds = output_.seconds();
   if (results_.broken_tension + results_.broken_shear > 0)

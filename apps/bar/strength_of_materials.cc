@@ -22,13 +22,13 @@ double clamped_free(double b, double r2, double s2) {
 
 } // namespace
 
-double Section::second_moment(bool along_x) const {
+double CrossSection::second_moment(bool along_x) const {
   if (round) return 0.25 * pi * radius * radius * radius * radius;
   const double depth = along_x ? width_x : width_y, width = along_x ? width_y : width_x;
   return width * depth * depth * depth / 12;
 }
 
-double Section::torsion_constant() const {
+double CrossSection::torsion_constant() const {
   if (round) return polar_moment();
   const double a = std::max(width_x, width_y), b = std::min(width_x, width_y);
   double sum = 0; // Timoshenko and Goodier, Theory of Elasticity, art. 109
@@ -37,16 +37,33 @@ double Section::torsion_constant() const {
   return a * b * b * b * (1.0 / 3 - 64 / std::pow(pi, 5) * (b / a) * sum);
 }
 
-Section section_of_gyration(bool round, double xx, double yy) {
+CrossSection section_of_gyration(bool round, double xx, double yy) {
   if (round) return {true, std::sqrt(2 * (xx + yy)), 0, 0};
   return {false, 0, std::sqrt(12 * xx), std::sqrt(12 * yy)};
 }
 
-double Rod::bending_frequency() const {
-  return first_root * first_root / (2 * pi * length * length) *
-         std::sqrt(bending_rigidity() / mass_per_length);
+double Rod::load_of_strain(BarLoad load, double strain) const {
+  const double skin = section.skin(along_x);
+  if (load == BarLoad::tension) return strain * axial_rigidity;
+  if (load == BarLoad::bending) return strain * bending_rigidity() / (skin * length);
+  return strain * torsion_rigidity() / skin;
 }
-double Rod::bending_frequency_with_shear() const {
+
+double Rod::response(BarLoad load, double size) const {
+  if (load == BarLoad::tension) return size * length / axial_rigidity;
+  if (load == BarLoad::bending)
+    return size * length * length * length / (3 * bending_rigidity()) + size * length / shear_rigidity();
+  return size * length / torsion_rigidity();
+}
+
+double Rod::frequency(BarLoad load) const {
+  if (load == BarLoad::tension) return wave_speed() / (4 * length);
+  if (load == BarLoad::bending) return bending_frequency();
+  const double inertia = mass_per_length * mass_section.polar_moment() / mass_section.area();
+  return std::sqrt(torsion_rigidity() / inertia) / (4 * length);
+}
+
+double Rod::bending_frequency() const {
   const double l2 = length * length;
   const double r2 = mass_section.second_moment(along_x) / mass_section.area() / l2,
                s2 = bending_rigidity() / (shear_rigidity() * l2);
@@ -60,4 +77,5 @@ double Rod::bending_frequency_with_shear() const {
   }
   return 0.5 * (low + high) / (2 * pi * l2) * std::sqrt(bending_rigidity() / mass_per_length);
 }
+
 } // namespace platen::apps

@@ -1,14 +1,16 @@
-// A prismatic bar by strength of materials: what the tests of platen-bar are held against. SI units.
+// A prismatic bar by strength of materials: the sizes of loads, and what platen-bar compares its tests with.
+// SI units.
 #pragma once
 
 #include <cmath>
 
+#include "apps/bar/bar_section.h"
 #include "base/pi.h"
 
 namespace platen::apps {
 
 // Round, or rectangular. Second moments as the strength of a section and (mass) as its inertia.
-struct Section {
+struct CrossSection {
   bool round = true;
   double radius = 0;               // m, round
   double width_x = 0, width_y = 0; // m, rectangular
@@ -26,7 +28,7 @@ struct Section {
   }
 };
 // With the same mean squares of x and y as a section of mean squares xx and yy (m^2).
-Section section_of_gyration(bool round, double xx, double yy);
+CrossSection section_of_gyration(bool round, double xx, double yy);
 
 // A bar with its end at 0 clamped, the other one free. Its rigidities may rest on another section than its
 // inertia of rotation.
@@ -35,8 +37,8 @@ struct Rod {
   double axial_rigidity = 0;  // N, E A
   double poisson_ratio = 0;   // G = E / (2 (1 + nu))
   double mass_per_length = 0; // kg/m
-  Section section;            // that carries forces
-  Section mass_section;       // of inertia of rotation
+  CrossSection section;       // that carries forces
+  CrossSection mass_section;  // of inertia of rotation
   bool along_x = true;        // the direction in which it is bent
 
   // E I, N m^2; kappa G A, N; G J, N m^2.
@@ -48,26 +50,18 @@ struct Rod {
     return axial_rigidity / (2 * (1 + poisson_ratio)) * section.torsion_constant() / section.area();
   }
 
-  // Of the free end: along under an axial force (N), across by Euler and Bernoulli and by Timoshenko, m; rad.
-  double stretch(double force) const { return force * length / axial_rigidity; }
-  double deflection(double force) const {
-    return force * length * length * length / (3 * bending_rigidity());
-  }
-  double deflection_with_shear(double force) const {
-    return deflection(force) + force * length / shear_rigidity();
-  }
-  double twist(double torque) const { return torque * length / torsion_rigidity(); }
-
   // Of long axial waves, m/s.
   double wave_speed() const { return std::sqrt(axial_rigidity / mass_per_length); }
-  // Lowest frequencies, 1/s.
-  double axial_frequency() const { return wave_speed() / (4 * length); } // c / 4 l
-  double bending_frequency() const;                                      // Euler and Bernoulli
-  double bending_frequency_with_shear() const; // Timoshenko, shear and inertia of rotation
-  double torsion_frequency() const {
-    const double inertia = mass_per_length * mass_section.polar_moment() / mass_section.area();
-    return std::sqrt(torsion_rigidity() / inertia) / (4 * length);
-  }
+
+  // Of tension, bending and torsion: the load (N, N m) that strains the skin at the clamp so much; how far
+  // the free end moves along a load (m, rad); the lowest frequency (1/s). Bending is Timoshenko's, with shear
+  // and inertia of rotation.
+  double load_of_strain(BarLoad load, double strain) const;
+  double response(BarLoad load, double size) const;
+  double frequency(BarLoad load) const;
+
+private:
+  double bending_frequency() const;
 };
 
 } // namespace platen::apps

@@ -5,11 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/bonds/pair_section.h"
 #include "apps/run/model_setup.h"
 #include "apps/scene/errors.h"
-#include "apps/scene/parameters.h"
-#include "dem/packing/specimen.h"
 
 namespace platen::apps {
 namespace {
@@ -22,32 +19,7 @@ constexpr int steps_of_a_move = 40;      // in which a prescribed displacement i
 constexpr double bonded_gap = 1e-9;      // of the radius: spheres touch, whatever Bond/Gap allows beyond that
 constexpr double base_clearance = 1e-6;  // of the radius, between base spheres without a bond
 
-BondSection section_of(const dem::ModelSettings &settings, double radius) {
-  BondSection b;
-  b.sphere_radius = radius;
-  b.bond_radius = settings.bond_layout.bond_radius(radius, radius);
-  b.modulus = settings.bond_layout.modulus;
-  const auto take_strengths = [&b](const auto &law) {
-    b.tensile_strength = dem::never_if_zero(law.tensile_strength);
-    b.shear_strength = dem::never_if_zero(law.shear_strength);
-    b.moment_contribution = law.moment_contribution;
-  };
-  if (const auto *beam = std::get_if<dem::CohesiveBeam::Parameters>(&*settings.bond)) {
-    b.beam = true;
-    b.poisson_ratio = beam->poisson_ratio;
-    take_strengths(*beam);
-  } else {
-    const auto &parallel = std::get<dem::ParallelBond::Parameters>(*settings.bond);
-    b.stiffness_ratio = parallel.stiffness_ratio;
-    take_strengths(parallel);
-  }
-  return b;
-}
 } // namespace
-
-bool is_pyramid(const Scene &scene) {
-  return pair_test_of(scene).particles == 3;
-}
 
 dem::Specimen touching_spheres(const Scene &scene) {
   const double r = scene.specimen.sphere_radius;
@@ -63,48 +35,34 @@ dem::Specimen touching_spheres(const Scene &scene) {
   return s;
 }
 
-dem::ModelSettings rig_settings(const Scene &scene, double modulus, double stiffness_ratio) {
+dem::ModelSettings pair_settings(const Scene &scene) {
   dem::ModelSettings settings = model_settings(scene);
-  settings.bond_layout.modulus = modulus;
-  settings.bond_layout.gap.value = bonded_gap;
-  settings.bond_layout.gap.relative = true;
-  if (auto *bond = std::get_if<dem::ParallelBond::Parameters>(&*settings.bond))
-    bond->stiffness_ratio = stiffness_ratio;
-  if (auto *bond = std::get_if<dem::YieldingParallelBond::Parameters>(&*settings.bond))
-    bond->stiffness_ratio = stiffness_ratio;
+  settings.bond_layout.modulus = scene.model.bond_layout.modulus;
+  settings.bond_layout.gap = {true, bonded_gap};
   return settings;
 }
 
-BondRig::BondRig(const Scene &scene, double modulus, double stiffness_ratio)
+BondRig::BondRig(const Scene &scene)
     : scene_(scene),
-      section_(section_of(rig_settings(scene, modulus, stiffness_ratio), scene.specimen.sphere_radius)),
       coordinates_(scene.model.rotation ? 6 : 3),
       rolls_(is_pyramid(scene) && pair_test_of(scene).plate == PairPlate::rolling),
-      model_(touching_spheres(scene), rig_settings(scene, modulus, stiffness_ratio)) {
+      model_(touching_spheres(scene), pair_settings(scene)),
+      radius_(scene.specimen.sphere_radius),
+      axial_stiffness_(model_.bonds->stiffness(0).axial) {
   const std::size_t spheres = model_.particles.size();
   row_.resize(spheres);
   loads_.resize(spheres);
   for (std::size_t k = 0; k < spheres; ++k)
     row_[static_cast<std::size_t>(model_.particles.id[k])] = k;
   fixed_.assign(spheres, {true, true, true, true, true, true});
-  const auto set_free = [&](std::size_t sphere, std::initializer_list<std::size_t> coordinates) {
-    for (const std::size_t c : coordinates)
-      fixed_[sphere][c] = false;
-  };
   const PairPath path = pair_test_of(scene).path;
-  if (is_pyramid(scene)) {
-    if (pair_test_of(scene).plate != PairPlate::sticking)
-      for (const std::size_t base : {1u, 2u})
-        set_free(base, {0, 4});
-  } else if (path == PairPath::shear || path == PairPath::twisting) {
-    driven_ = path == PairPath::shear ? 0 : 5;
-    set_free(0, {2});
-  } else if (path == PairPath::bending) {
-    driven_ = 4;
-    set_free(0, {0, 2});
-  }
-  set_free(0, {driven_});
-  bonds_at_start_ = static_cast<int>(model_.intact_bonds());
+  if (path == PairPath::shear) driven_ = 0;
+  if (path == PairPath::bending) driven_ = 4, fixed_[0][0] = false;
+  if (path == PairPath::twisting) driven_ = 5;
+  fixed_[0][2] = fixed_[0][driven_] = false; // the line of centres stays free on every path
+  if (is_pyramid(scene) && pair_test_of(scene).plate != PairPlate::sticking)
+    for (const std::size_t base : {1u, 2u})
+      fixed_[base][0] = fixed_[base][4] = false;
   check_time_step();
 }
 
@@ -113,8 +71,8 @@ void BondRig::check_time_step() {
   const dem::StableStep stable = model_.stable_step({}, 0);
   const double wanted = scene_.time_step.fixed_step, safe = scene_.time_step.safety * stable.limit;
   if (dt_ == 0 && wanted > stable.limit)
-    scene_.parameters->refuse("Integration/Time step", fmt::format("is above the limit of {:.4g} s: {}.",
-                                                                   stable.limit, stable.reason));
+    refuse(scene_, "Integration/Time step",
+           fmt::format("is above the limit of {:.4g} s: {}.", stable.limit, stable.reason));
   if (dt_ == 0) {
     dt_ = wanted > 0 ? wanted : safe;
     reason_ =
@@ -131,14 +89,6 @@ double &BondRig::speed(std::size_t sphere, std::size_t c) {
 double &BondRig::load(std::size_t sphere, std::size_t c) {
   dem::Particles &p = model_.particles;
   return (c < 3 ? p.force : *p.torque)[row_[sphere]][static_cast<int>(c % 3)];
-}
-
-// What bonds and contacts exert, as it stands after compute_forces: the rig has no weight, and its few
-// spheres are one block, so that nothing waits in ghosts.
-void BondRig::take_loads() {
-  for (std::size_t s = 0; s < row_.size(); ++s)
-    for (std::size_t c = 0; c < coordinates_; ++c)
-      loads_[s][c] = load(s, c);
 }
 
 // What the rig has to put on the driven coordinate to hold it.
@@ -179,7 +129,11 @@ void BondRig::step() {
   prescribe_coordinates();
   model_.begin_step(dt_);
   model_.compute_forces(dt_);
-  take_loads();
+  // What bonds and contacts exert: the rig has no weight, and its few spheres are one block, so that nothing
+  // waits in ghosts.
+  for (std::size_t s = 0; s < row_.size(); ++s)
+    for (std::size_t c = 0; c < coordinates_; ++c)
+      loads_[s][c] = load(s, c);
   if (by_load_) load(0, driven_) += applied_;
   if (rolls_) roll();
   model_.end_step(dt_);
@@ -192,22 +146,21 @@ void BondRig::step() {
 
 // Largest load on a free coordinate, N; moments over the radius.
 double BondRig::imbalance() const {
-  const double r = section_.sphere_radius;
   double largest = 0;
   for (std::size_t s = 0; s < fixed_.size(); ++s)
     for (std::size_t c = 0; c < coordinates_; ++c) {
       if (fixed_[s][c] || (s == 0 && c == driven_ && !by_load_)) continue;
       double load = loads_[s][c];
       if (s == 0 && c == driven_) load += applied_;
-      if (c > 2) load /= r;
-      if (rolls_ && s > 0) load = loads_[s][0] + loads_[s][4] / r; // one coordinate, two parts
+      if (c > 2) load /= radius_;
+      if (rolls_ && s > 0) load = loads_[s][0] + loads_[s][4] / radius_; // one coordinate, two parts
       largest = std::max(largest, std::abs(load));
     }
   return largest;
 }
 
-RigReading BondRig::settle() {
-  const double stiffness = section_.axial_stiffness(), floor = round_off * stiffness * section_.sphere_radius;
+BondReading BondRig::settle() {
+  const double floor = round_off * axial_stiffness_ * radius_;
   const std::size_t intact = model_.intact_bonds();
   for (long n = 1; n <= most_steps; ++n) {
     step();
@@ -221,10 +174,11 @@ RigReading BondRig::settle() {
           w = {};
       return read();
     }
-    const double arm = driven_ < 3 ? 1 : section_.sphere_radius;
+    const double arm = driven_ < 3 ? 1 : radius_;
     scale_ = std::max(scale_, std::abs(by_load_ ? applied_ : driven_load()) / arm);
     const double allowed = std::max(at_rest * scale_, floor);
-    if (imbalance() <= allowed && dem::kinetic_energy(model_.particles) <= allowed * allowed / stiffness)
+    if (imbalance() <= allowed &&
+        dem::kinetic_energy(model_.particles) <= allowed * allowed / axial_stiffness_)
       return read();
   }
   throw NumericsError(
@@ -233,13 +187,13 @@ RigReading BondRig::settle() {
                   most_steps, scale_));
 }
 
-RigReading BondRig::load_to(double load) {
+BondReading BondRig::load_to(double load) {
   by_load_ = true;
   applied_ = load;
   return settle();
 }
 
-RigReading BondRig::move_to(double displacement) {
+BondReading BondRig::move_to(double displacement) {
   by_load_ = false;
   drive_speed_ = (displacement - driven_displacement()) / (steps_of_a_move * dt_);
   for (int n = 0; n < steps_of_a_move; ++n)
@@ -248,13 +202,12 @@ RigReading BondRig::move_to(double displacement) {
   return settle();
 }
 
-RigReading BondRig::read() const {
+BondReading BondRig::read() const {
   const dem::Particles &p = model_.particles;
-  RigReading r;
-  const double load = by_load_ ? applied_ : driven_load();
-  (driven_ < 3 ? r.force : r.moment) = load;
+  BondReading r;
+  (driven_ < 3 ? r.force : r.moment) = by_load_ ? applied_ : driven_load();
   (driven_ < 3 ? r.displacement : r.rotation) = driven_displacement();
-  r.intact = static_cast<int>(model_.intact_bonds());
+  r.intact = static_cast<double>(model_.intact_bonds());
   const dem::Bonds &b = *model_.bonds;
   for (std::size_t k = 0; k < b.size(); ++k) {
     if (b.normal_stiffness[k] == 0) continue;
@@ -265,7 +218,6 @@ RigReading BondRig::read() const {
         std::minmax(p.id[static_cast<std::size_t>(b.first[k])], p.id[static_cast<std::size_t>(b.second[k])]);
     if (ends.first == 0 && ends.second == 1) r.normal = response.normal_force, r.shear = response.shear_force;
   }
-  r.strain_ratio = not_given;
   if (is_pyramid(scene_)) {
     const auto moved = [&](std::size_t sphere) {
       return (p.position[row_[sphere]] - p.reference_position[row_[sphere]]).x;

@@ -26,7 +26,7 @@ struct PairTest { // platen-bonds
   bool base_bond = true;                     // three particles: a bond between the lower two
   double force = not_given;                  // N, largest
   double displacement = not_given;           // m, largest
-  // Elasto damage plastic.
+  // Of bonds with history.
   std::vector<double> turns;  // m, displacements at which the path turns, opening positive; empty: one way
   double pressure = 0;        // Pa, that presses the bond while it is sheared
   double slip_ratio = 1;      // slip over opening of a combined path
@@ -37,6 +37,17 @@ struct PairTest { // platen-bonds
 
 inline const PairTest &pair_test_of(const Scene &scene) {
   return scene.own<PairTest>();
+}
+
+inline bool is_pyramid(const Scene &scene) { // three spheres
+  return pair_test_of(scene).particles == 3;
+}
+inline bool turns(const Scene &scene) { // spheres, instead of moving them
+  return pair_test_of(scene).path == PairPath::bending || pair_test_of(scene).path == PairPath::twisting;
+}
+// Whether positions are prescribed, because the bond has a history, not loads.
+inline bool is_prescribed(const Scene &scene) {
+  return scene.bond.remembers();
 }
 
 Program pair_program();

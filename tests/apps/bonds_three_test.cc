@@ -17,6 +17,37 @@ Scene pyramid_scene(const Words &overrides) {
   return read_scene(std::string(PLATEN_SCENES) + "/three_particles.prm", overrides, program("bonds"));
 }
 
+constexpr double axial = 150e9 * 3.14159265358979e-6 / 2e-3; // k_n A, N/m
+
+// Minimum of the elastic energy of the three bonds over the spread u of each base sphere and its rotation,
+// for the top sphere pressed down by w = 1; small displacements, no contact forces.
+struct Response {
+  double stiffness = 0;    // over k_n A: load on the top sphere over its path down
+  double strain_ratio = 0; // sqrt(3) u / w: lateral strain of the base over the vertical strain
+};
+// Base sphere at (R, 0), top sphere at (0, sqrt(3) R); the base sphere moves out by u and rolls outwards by
+// theta = t / R. Inclined bond: stretch u/2 - sqrt(3)/2, slip sqrt(3)/2 u + 1/2 + t, relative rotation theta;
+// the base bond stretches by 2u and bends by 2 theta, half of it for each half.
+Response by_least_energy(double shear_ratio, PairPlate plate, bool base_bond, bool rotation) {
+  const double root3 = std::sqrt(3.0), k = shear_ratio, bending = .25; // k_n I over k_n A R^2
+  // Energy / (k_n A) = 1/2 (u a11 u + 2 u a12 t + t a22 t) + f1 u + f2 t + 1/2 c.
+  double a11 = .25 + .75 * k, a12 = root3 / 2 * k, a22 = k + bending;
+  const double f1 = -root3 / 4 + root3 / 4 * k, f2 = k / 2, c = .75 + .25 * k;
+  if (base_bond) a11 += 2, a22 += 2 * bending;
+  double u = 0, t = 0;
+  if (plate == PairPlate::frictionless && rotation) {
+    const double determinant = a11 * a22 - a12 * a12;
+    u = (-f1 * a22 + f2 * a12) / determinant;
+    t = (-f2 * a11 + f1 * a12) / determinant;
+  } else if (plate == PairPlate::frictionless) {
+    u = -f1 / a11;
+  } else if (plate == PairPlate::rolling) { // t = u
+    u = t = -(f1 + f2) / (a11 + 2 * a12 + a22);
+  } // sticking: neither moves nor turns
+  const double energy = .5 * (a11 * u * u + 2 * a12 * u * t + a22 * t * t) + f1 * u + f2 * t + .5 * c;
+  return {2 * 2 * energy, root3 * u}; // two halves; F = 2 E / w
+}
+
 struct Variant {
   const char *base_bond, *rotation, *plate;
   double strain_ratio[5]; // at k_s / k_n = .5, .6, .7, .8, .9, from the minimum of the energy, to 4 digits
@@ -30,18 +61,22 @@ class Pyramids : public testing::TestWithParam<Variant> {};
 
 TEST_P(Pyramids, spread_as_the_least_energy_says) {
   const Variant v = GetParam();
-  const std::vector<BondRun> runs = run_bond_tests(pyramid_scene(
-      {std::string("Pair test/Base bond = ") + v.base_bond, std::string("Effects/Rotation = ") + v.rotation,
-       std::string("Pair test/Plate = ") + v.plate}));
+  const Scene scene = pyramid_scene({std::string("Pair test/Base bond = ") + v.base_bond,
+                                     std::string("Effects/Rotation = ") + v.rotation,
+                                     std::string("Pair test/Plate = ") + v.plate});
+  const PairTest &test = pair_test_of(scene);
+  const std::vector<BondRun> runs = run_bond_tests(scene);
   ASSERT_EQ(runs.size(), 5u);
   for (std::size_t k = 0; k < 5; ++k) {
-    const RigReading &r = runs[k].path.largest;
-    EXPECT_NEAR(runs[k].strain_ratio_by_hand, v.strain_ratio[k], .5001e-4); // the printed digits
-    EXPECT_NEAR(r.strain_ratio, runs[k].strain_ratio_by_hand, 1e-3 * std::abs(runs[k].strain_ratio_by_hand));
-    EXPECT_NEAR(r.force / r.displacement, runs[k].stiffness_by_hand, 1e-4 * runs[k].stiffness_by_hand);
+    const BondReading &r = runs[k].largest;
+    const Response by_hand =
+        by_least_energy(test.stiffness_ratios[k], test.plate, test.base_bond, scene.model.rotation);
+    EXPECT_NEAR(by_hand.strain_ratio, v.strain_ratio[k], .5001e-4); // the printed digits
+    EXPECT_NEAR(r.strain_ratio, by_hand.strain_ratio, 1e-3 * std::abs(by_hand.strain_ratio));
+    EXPECT_NEAR(r.force / r.displacement, axial * by_hand.stiffness, 1e-4 * axial * by_hand.stiffness);
   }
   for (std::size_t k = 1; k < 5; ++k) // stiffer shear springs resist spreading
-    EXPECT_LE(runs[k].path.largest.strain_ratio, runs[k - 1].path.largest.strain_ratio);
+    EXPECT_LE(runs[k].largest.strain_ratio, runs[k - 1].largest.strain_ratio);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -56,18 +91,14 @@ INSTANTIATE_TEST_SUITE_P(
 
 // 3(1 - r)/(1 + 3r), (1 - r)/(3 + r), and r/(1 + 4r) for r where spheres turn freely.
 TEST(bonds_three, the_energy_gives_the_formulas_of_simple_cases) {
-  Pyramid p;
-  p.bond.sphere_radius = p.bond.bond_radius = 1e-3;
-  p.bond.modulus = 150e9;
+  const auto ratio = [](double r, bool base_bond, bool rotation) {
+    return by_least_energy(r, PairPlate::frictionless, base_bond, rotation).strain_ratio;
+  };
   for (const double r : {.1, .5, .9, 1.0}) {
-    p.bond.stiffness_ratio = r;
-    p.rotation = false, p.base_bond = false;
-    EXPECT_NEAR(pyramid_response(p).strain_ratio, 3 * (1 - r) / (1 + 3 * r), 1e-12);
-    p.base_bond = true;
-    EXPECT_NEAR(pyramid_response(p).strain_ratio, (1 - r) / (3 + r), 1e-12);
-    p.rotation = true, p.base_bond = false;
     const double softer = r / (1 + 4 * r);
-    EXPECT_NEAR(pyramid_response(p).strain_ratio, 3 * (1 - softer) / (1 + 3 * softer), 1e-12);
+    EXPECT_NEAR(ratio(r, false, false), 3 * (1 - r) / (1 + 3 * r), 1e-12);
+    EXPECT_NEAR(ratio(r, true, false), (1 - r) / (3 + r), 1e-12);
+    EXPECT_NEAR(ratio(r, false, true), 3 * (1 - softer) / (1 + 3 * softer), 1e-12);
   }
 }
 
@@ -76,8 +107,9 @@ TEST(bonds_three, unloading_goes_back_on_the_same_line) {
       run_bond_tests(pyramid_scene({"Pair test/Path = cyclic", "Pair test/Steps = 8",
                                     "Pair test/Stiffness ratio list = 0.7", "Effects/Rotation = on"}))
           .at(0);
-  for (const RigReading &row : run.path.rows)
-    EXPECT_NEAR(row.displacement, row.force / run.stiffness_by_hand, 1e-4 / run.stiffness_by_hand);
+  const double stiffness = axial * by_least_energy(.7, PairPlate::frictionless, true, true).stiffness;
+  for (const BondReading &row : run.rows)
+    EXPECT_NEAR(row.displacement, row.force / stiffness, 1e-4 / stiffness);
 }
 
 TEST(bonds_three, what_a_plate_cannot_do_is_refused) {

@@ -5,11 +5,12 @@
 #include <cmath>
 
 #include "apps/bonds/run_bonds.h"
+#include "apps/compared_pair.h"
 #include "apps/programs.h"
 #include "apps/scene/errors.h"
 #include "tests/measured.h"
 
-namespace platen::apps {
+namespace platen::apps::testing {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -17,40 +18,37 @@ using Words = std::vector<std::string>;
 // The scene's concrete: spheres of 1 mm, G_b 48 GPa.
 constexpr double area = 3.14159265358979323846e-6;
 
-BondRun run_pair(Words overrides) {
+ComparedRun run_pair(Words overrides) {
   if (!overrides.empty()) overrides.insert(overrides.begin(), "Pair test/Turns =");
-  return run_bond_tests(
-             read_scene(std::string(PLATEN_SCENES) + "/yielding_bond.prm", overrides, program("bonds")))
-      .at(0);
+  return compared_run("yielding_bond.prm", overrides);
 }
 
-void expect_by_hand(const BondRun &run, double close) {
-  EXPECT_LT(run.cohesive.largest_difference(), close);
-  const CohesiveRow &last = run.cohesive.rows.back();
-  const CohesiveReading &m = last.measured;
-  EXPECT_NEAR(m.dissipated, last.dissipated_by_hand, 10 * close * m.work);
+void expect_by_hand(const ComparedRun &run, double close) {
+  EXPECT_LT(run.largest_difference(), close);
+  const BondReading &m = run.last();
+  EXPECT_NEAR(m.dissipated, run.by_hand.back().dissipated, 10 * close * m.work);
   EXPECT_NEAR(m.work, m.stored + m.dissipated, 10 * close * m.work);
 }
 
 TEST(bonds_yielding, closing_yields_unloads_and_comes_back_as_by_hand) {
-  const BondRun run = run_pair({});
+  const ComparedRun run = run_pair({});
   expect_by_hand(run, 1e-8);
-  measured::expect_below(51, "load_off_in_compression", run.cohesive.largest_difference(), 1e-8);
+  measured::expect_below(51, "load_off_in_compression", run.largest_difference(), 1e-8);
   // 160 MPa at 60 + 150 + 600 over 48000 MPa, then a slope of G_b/22 up to 50 um of 2 mm.
   const double stress = 160e6 + (0.025 - 810e6 / 48e9) * 48e9 / 22;
-  EXPECT_NEAR(run.path.rows.back().force, -stress * area, 1e-8 * stress * area);
-  EXPECT_NEAR(run.cohesive.rows.back().measured.plastic_closing, 2e-3 * (0.025 - stress / 48e9), 1e-12);
+  EXPECT_NEAR(run.rows.back().force, -stress * area, 1e-8 * stress * area);
+  EXPECT_NEAR(run.last().plastic_closing, 2e-3 * (0.025 - stress / 48e9), 1e-12);
   EXPECT_EQ(run.broken_tension + run.broken_shear, 0);
 }
 
 TEST(bonds_yielding, tension_is_brittle_at_its_strength) {
-  const BondRun run = run_pair({"Pair test/Path = tension", "Pair test/Displacement = 0.5 um"});
+  const ComparedRun run = run_pair({"Pair test/Path = tension", "Pair test/Displacement = 0.5 um"});
   expect_by_hand(run, 1e-8);
-  EXPECT_NEAR(run.path.break_load, 9e6 * area, 1e-8 * 9e6 * area);
-  EXPECT_EQ(run.path.rows.back().force, 0);
+  EXPECT_NEAR(run.break_load, 9e6 * area, 1e-8 * 9e6 * area);
+  EXPECT_EQ(run.rows.back().force, 0);
   EXPECT_EQ(run.broken_tension, 1);
   const double whole = 0.5 * 9e6 * area * 9e6 / 48e9 * 2e-3;
-  EXPECT_NEAR(run.cohesive.rows.back().measured.dissipated, whole, 1e-8 * whole);
+  EXPECT_NEAR(run.last().dissipated, whole, 1e-8 * whole);
 }
 
 TEST(bonds_yielding, shear_under_pressure_falls_to_the_friction_of_grains) {
@@ -58,38 +56,37 @@ TEST(bonds_yielding, shear_under_pressure_falls_to_the_friction_of_grains) {
   Words there = sheared, there_and_back = sheared;
   there.emplace_back("Pair test/Displacement = 20 um");
   there_and_back.emplace_back("Pair test/Turns = 5 um, -8 um, 20 um, -20 um");
-  for (const BondRun &run : {run_pair(there), run_pair(there_and_back)}) {
+  for (const ComparedRun &run : {run_pair(there), run_pair(there_and_back)}) {
     expect_by_hand(run, 1e-5);
     EXPECT_EQ(run.broken_shear, 1);
-    EXPECT_NEAR(std::abs(run.path.rows.back().force), 0.35 * 80e6 * area, 1e-8 * 80e6 * area);
-    EXPECT_NEAR(run.path.break_load, (36e6 + 40e6) * area,
+    EXPECT_NEAR(std::abs(run.rows.back().force), 0.35 * 80e6 * area, 1e-8 * 80e6 * area);
+    EXPECT_NEAR(run.break_load, (36e6 + 40e6) * area,
                 5e-3 * 76e6 * area); // at arms that are 0.25 % shorter
   }
 }
 
 TEST(bonds_yielding, tension_and_shear_at_once_break_by_the_first_of_both) {
-  const BondRun run =
+  const ComparedRun run =
       run_pair({"Pair test/Path = combined", "Pair test/Slip ratio = 3", "Pair test/Displacement = 3 um"});
-  EXPECT_EQ(run.broken_tension, 1);                   // 9 MPa against 3 / 4 of it in shear
-  EXPECT_LT(run.cohesive.largest_difference(), 1e-3); // lines by hand are of small strains
-  EXPECT_EQ(run.path.rows.back().force, 0);
+  EXPECT_EQ(run.broken_tension, 1);          // 9 MPa against 3 / 4 of it in shear
+  EXPECT_LT(run.largest_difference(), 1e-3); // lines by hand are of small strains
+  EXPECT_EQ(run.rows.back().force, 0);
 }
 
 // M = sigma I/(beta R_b) of 9 MPa and tau J/(beta R_b), of what neither opens nor slips.
 TEST(bonds_yielding, bending_and_twisting_break_at_the_strength_of_the_skin) {
   for (const bool twists : {false, true}) {
-    const BondRun run =
+    const ComparedRun run =
         run_pair({std::string("Pair test/Path = ") + (twists ? "twisting" : "bending"),
                   "Bond/Moment contribution = 0.5", "Pair test/Turns = 0.5 um, -1 um, 60 um"});
     expect_by_hand(run, 1e-7);
     measured::expect_below(51, twists ? "load_off_in_twisting" : "load_off_in_bending",
-                           run.cohesive.largest_difference(), 1e-7);
+                           run.largest_difference(), 1e-7);
     const double inertia = .25 * area * 1e-6;
-    EXPECT_NEAR(run.path.break_load, run.strength_by_hand, 3e-7 * run.strength_by_hand); // the row before
     const double by_hand = twists ? 36e6 * 2 * inertia / .5e-3 : 9e6 * inertia / .5e-3;
-    EXPECT_NEAR(run.strength_by_hand, by_hand, 1e-9 * by_hand);
+    EXPECT_NEAR(run.break_load, by_hand, 3e-7 * by_hand); // the row before
     EXPECT_EQ(twists ? run.broken_shear : run.broken_tension, 1);
-    EXPECT_EQ(run.path.rows.back().moment, 0);
+    EXPECT_EQ(run.rows.back().moment, 0);
   }
 }
 
@@ -101,9 +98,9 @@ TEST(bonds_yielding, stiffness_ratios_are_a_list_as_of_the_parallel_bond) {
                  program("bonds"));
   const std::vector<BondRun> runs = run_bond_tests(scene);
   ASSERT_EQ(runs.size(), 2u);
-  EXPECT_NEAR(runs[1].path.rows.back().force, 2 * runs[0].path.rows.back().force,
-              1e-9 * std::abs(runs[1].path.rows.back().force));
+  EXPECT_NEAR(runs[1].rows.back().force, 2 * runs[0].rows.back().force,
+              1e-9 * std::abs(runs[1].rows.back().force));
 }
 
 } // namespace
-} // namespace platen::apps
+} // namespace platen::apps::testing

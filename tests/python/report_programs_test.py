@@ -9,7 +9,7 @@ from report_folders import InFolder
 from platen.errors import InputError
 from platen.report import house, pages, programs
 
-BONDS = "run,modulus_pa,stiffness_ratio,force_n,displacement_m,moment_nm,rotation_rad,strain_ratio,by_hand,difference\n"
+BONDS = "run,modulus_pa,stiffness_ratio,force_n,displacement_m,moment_nm,rotation_rad,strain_ratio\n"
 TWO = numpy.array([[0, 0, 1], [0, 0, 3.0]])
 
 
@@ -81,27 +81,25 @@ class Packings(OfPrograms):
 
 
 class Bonds(OfPrograms):
-    def test_loads_are_drawn_over_displacements_from_rest_beside_the_closed_form(self):
+    def test_loads_are_drawn_over_displacements_from_rest(self):
         made = self.page({"app": "platen-bonds", "runs": [{"modulus_pa": 1e11, "stiffness": 1.66667e8, "break_load": None}]},
-                         **{"bonds.csv": BONDS + "1,1e11,0.5,500,3e-6,0,0,,3.3e-6,-0.090909\n1,1e11,0.5,1000,6e-6,0,0,,6.6e-6,-0.090909\n"})
-        self.assertEqual(made.sections[0].tables[0].rows[0][:6], ["1", "100", "-", "1.667e+08", "-", "-"])
-        measured, closed = self.axes(made, "bonds")[0].lines
+                         **{"bonds.csv": BONDS + "1,1e11,0.5,500,3e-6,0,0,\n1,1e11,0.5,1000,6e-6,0,0,\n"})
+        self.assertEqual(made.sections[0].tables[0].rows[0], ["1", "100", "-", "1.667e+08", "-"])
+        measured, = self.axes(made, "bonds")[0].lines
         self.assertEqual(measured.get_label(), "modulus 100 GPa, stiffness ratio 0.5")
         numpy.testing.assert_allclose(measured.get_xydata(), [[0, 0], [3, 500], [6, 1000]])
-        numpy.testing.assert_allclose(closed.get_xydata(), [[0, 0], [3.3, 500], [6.6, 1000]])
 
-    def test_a_bond_that_is_bent_is_drawn_by_its_moment_and_its_closed_form_may_be_the_load(self):
-        made = self.page({"app": "platen-bonds"}, **{"bonds.csv": BONDS[:-1] + ",shear_by_hand_n\n1,1e11,0.5,0,0,2,3,,2.5,-0.2,0\n"})
-        measured, closed = self.axes(made, "bonds")[0].lines
+    def test_a_bond_that_is_bent_is_drawn_by_its_moment(self):
+        made = self.page({"app": "platen-bonds"}, **{"bonds.csv": BONDS + "1,1e11,0.5,0,0,2,3,\n"})
+        measured, = self.axes(made, "bonds")[0].lines
         numpy.testing.assert_allclose(measured.get_xydata()[1], [3000, 2])
-        numpy.testing.assert_allclose(closed.get_xydata()[1], [3000, 2.5])
 
     def test_strain_ratios_of_three_bonds_have_a_chart_of_their_own(self):
-        rows = "".join(f"{run},1e11,{ratio},-1,-2e-9,0,0,{nu},{nu},0\n"
+        rows = "".join(f"{run},1e11,{ratio},-1,-2e-9,0,0,{nu}\n"
                        for run, ratio, nu in ((1, 0.5, 0.1), (1, 0.5, 1 / 7), (2, 0.6, 1 / 9)))
         load, strain = self.axes(self.page({"app": "platen-bonds"}, **{"bonds.csv": BONDS + rows}), "bonds")
         self.assertEqual(len(load.lines), 2)
-        numpy.testing.assert_allclose(strain.lines[1].get_xydata(), [[0.5, 1 / 7], [0.6, 1 / 9]])
+        numpy.testing.assert_allclose(strain.lines[0].get_xydata(), [[0.5, 1 / 7], [0.6, 1 / 9]])
 
     def test_a_missing_column_is_refused_and_no_row_is_said(self):
         self.refused("bonds.csv: no column modulus_pa", {"app": "platen-bonds"}, **{"bonds.csv": "run,force_n\n1,5\n"})

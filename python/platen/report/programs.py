@@ -109,47 +109,41 @@ def _pack(folder, summary, remarks):
 
 
 # ---- bond tests
-def bond_paths(axes, table, displacement, load, compared):
-    """Load over displacement of each run, from rest; dashed: the closed form, where it is of one of both."""
+def bond_paths(axes, table, displacement, load):
+    """Load over displacement of each run, from rest."""
     factor, name = (1e6, "Displacement (um)") if displacement == "displacement_m" else (1e3, "Rotation (mrad)")
     for k, run in enumerate(numpy.unique(table["run"])):
         rows = table["run"] == run
         modulus, ratio = table["modulus_pa"][rows][0] * GPA, table["stiffness_ratio"][rows][0]
         axes.plot(numpy.r_[0, table[displacement][rows]] * factor, numpy.r_[0, table[load][rows]], color=CYCLE[k % len(CYCLE)], lw=2.6,
                   label=f"modulus {modulus:.4g} GPa, stiffness ratio {ratio:.3g}")
-        rows &= numpy.isfinite(table["by_hand"])
-        if compared in (displacement, load) and rows.any():
-            x, y = (table["by_hand" if compared == column else column][rows] for column in (displacement, load))
-            axes.plot(numpy.r_[0, x] * factor, numpy.r_[0, y], "--", color=BLACK, lw=1, label="closed form" if k == 0 else None)
     titled(axes, name, "Force (N)" if load == "force_n" else "Moment (N m)", 2)
 
 
 def strain_ratios(axes, table):
     """Strain ratio of the triangle over the stiffness ratio of its bonds, at the end of each run."""
     last = [numpy.flatnonzero(table["run"] == run)[-1] for run in numpy.unique(table["run"])]
-    for column, name, colour, mark, size in (("strain_ratio", "measured", BLUE, "o", 7), ("by_hand", "closed form", VERMILION, "D", 3)):
-        axes.plot(table["stiffness_ratio"][last], table[column][last], mark, color=colour, ms=size, label=name)
+    axes.plot(table["stiffness_ratio"][last], table["strain_ratio"][last], "o", color=BLUE, ms=7)
     titled(axes, "Stiffness ratio of the bonds", "Strain ratio of the triangle", 2)
 
 
 def _bonds(folder, summary, remarks):
     table = table_with(folder / "bonds.csv", "run", "modulus_pa", "stiffness_ratio", "force_n", "displacement_m", "moment_nm",
-                       "rotation_rad", "strain_ratio", "by_hand")
+                       "rotation_rad", "strain_ratio")
     moment = table["moment_nm"]
     displacement, load = ("rotation_rad", "moment_nm") if (numpy.isfinite(moment) & (moment != 0)).any() else ("displacement_m", "force_n")
     pictures, of_triangle = [], numpy.isfinite(table["strain_ratio"]).any()
     if table.rows:
-        compared = load if "shear_by_hand_n" in table else "strain_ratio" if of_triangle else displacement
-        draws = [partial(bond_paths, table=table, displacement=displacement, load=load, compared=compared)]
+        draws = [partial(bond_paths, table=table, displacement=displacement, load=load)]
         draws += [partial(strain_ratios, table=table)] if of_triangle else []
-        pictures = [chart("bonds", "Load over displacement of each run. Dashed, or diamonds: the closed form.", *draws, heights=3.2)]
+        pictures = [chart("bonds", "Load over displacement of each run.", *draws, heights=3.2)]
     else:
         remarks.append("bonds.csv has no row: there is nothing to draw")
-    keys = ("stiffness_ratio", "stiffness", "stiffness_by_hand", "break_load", "break_load_by_hand", "largest_difference")
+    keys = ("stiffness_ratio", "stiffness", "break_load")
     rows = [[str(k + 1), *(digits(value) for value in (number_in(run, "modulus_pa") * GPA, *(number_in(run, key) for key in keys)))]
             for k, run in enumerate(summary.get("runs", []))]
-    header = ["run", "modulus (GPa)", "stiffness ratio", "stiffness", "closed form", "break load", "closed form", "difference"]
-    note = "Stiffness and load in SI units; moments over rotations where the bond is bent or twisted. Difference: the largest."
+    header = ["run", "modulus (GPa)", "stiffness ratio", "stiffness", "break load"]
+    note = "Stiffness and load in SI units; moments over rotations where the bond is bent or twisted."
     return [Section("Load and displacement", pictures, [Table(header, rows, "", note)])]
 
 

@@ -1,9 +1,9 @@
-#include "apps/bonds/moment_forms.h"
+#include "apps/moment_forms.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace platen::apps {
+namespace platen::apps::testing {
 namespace {
 
 // Of the turn of failure: rows stand on both of its sides. A turn is the sum of its steps.
@@ -49,11 +49,6 @@ double MomentByHand::stored() const {
   return left() * section_.stiffness * (1 - std::cos(at_));
 }
 
-double MomentByHand::strength() const {
-  return section_.arm > 0 ? section_.stiffness * section_.own.limit() / section_.arm
-                          : std::numeric_limits<double>::infinity();
-}
-
 std::vector<double> MomentByHand::kinks(double to) const {
   std::vector<double> sines = {widest_}, shares;
   if (section_.arm > 0 && std::isfinite(section_.own.limit())) {
@@ -81,4 +76,4 @@ void MomentByHand::go(double to) {
   work_ += 0.5 * (before + moment()) * (at_ - from);
 }
 
-} // namespace platen::apps
+} // namespace platen::apps::testing

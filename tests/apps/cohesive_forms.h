@@ -1,4 +1,4 @@
-// What a bond that remembers does between two spheres that are moved from place to place, by hand: strengths,
+// What a bond with history does between two spheres that are moved from place to place, by hand: strengths,
 // displacements and fracture energies of theory 2.6 and 2.7 as straight lines, of which the laws themselves
 // know nothing.
 #pragma once
@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "dem/laws/bond_law.h"
+#include "dem/bonds.h"
 
-namespace platen::apps {
+namespace platen::apps::testing {
 
 // Linear softening of one direction, or none: brittle. SI units, stresses.
 struct SofteningByHand {
@@ -25,8 +25,6 @@ struct SofteningByHand {
 
   double limit() const { return strength / stiffness; }    // u_l, m, where damage begins
   double end() const { return limit() * (1 + softening); } // u_f, m, where nothing is left
-  // J/m^2, area under the softening branch.
-  double fracture_energy() const { return 0.5 * strength * (end() - limit()); }
 };
 
 struct CohesiveSection {
@@ -47,8 +45,8 @@ struct CohesiveSection {
   double yield_stress(double closing) const;    // Pa, of closing so far (m) for the first time
   double closing_at(double stress) const;       // m, inverse of the same
 };
-// Of a law that remembers; std::logic_error of another.
-CohesiveSection section_of(const dem::BondLaw &law, double length, double area, double modulus);
+// Of the one bond of a pair, whose law has to be one of those.
+CohesiveSection section_of(const dem::Bonds &bonds);
 
 // One bond on its path. Places are absolute; between them the path is straight and is to end at the kinks.
 struct CohesivePlace {
@@ -106,4 +104,4 @@ private:
   bool failed_ = false;
 };
 
-} // namespace platen::apps
+} // namespace platen::apps::testing

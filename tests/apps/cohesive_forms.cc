@@ -1,10 +1,11 @@
-#include "apps/bonds/cohesive_forms.h"
+#include "apps/cohesive_forms.h"
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
-namespace platen::apps {
+#include "base/pi.h"
+
+namespace platen::apps::testing {
 namespace {
 
 // Of the displacement of failure: rows stand on both of its sides. What turns is known less closely.
@@ -15,35 +16,32 @@ double share(const SofteningByHand &of, double farthest) {
   return std::isfinite(of.limit()) ? of.damage(farthest / of.limit()) : 0;
 }
 
-void take(CohesiveSection &s, const dem::ElastoDamagePlastic &law) {
+} // namespace
+
+CohesiveSection section_of(const dem::Bonds &bonds) {
+  CohesiveSection s;
+  s.length = bonds.rest_length[0], s.area = pi * bonds.bond_radius[0] * bonds.bond_radius[0];
+  s.modulus = bonds.normal_stiffness[0] * s.length;
+  const auto take = [&s](const auto &law) {
+    s.tensile_strength = law.parameters.tensile_strength, s.shear_strength = law.parameters.shear_strength;
+    s.compression = law.compression;
+  };
+  if (const auto *yielding = std::get_if<dem::YieldingParallelBond>(&bonds.law)) {
+    take(*yielding);
+    s.arms_at_rest = true;
+    s.shear_ratio = yielding->parameters.stiffness_ratio;
+    s.friction_static = std::tan(yielding->parameters.friction_angle);
+    s.friction_dynamic = yielding->grain_friction;
+    return s;
+  }
+  const auto &law = std::get<dem::ElastoDamagePlastic>(bonds.law);
   const dem::ElastoDamagePlastic::Parameters &p = law.parameters;
+  take(law);
   s.shear_ratio = 0.5 / (1 + p.poisson_ratio);
   s.friction_static = p.friction_static, s.friction_dynamic = p.friction_dynamic;
   s.softening_tension = p.softening_tension, s.softening_shear = p.softening_shear;
   s.fracture_energy_tension = p.fracture_energy_tension, s.fracture_energy_shear = p.fracture_energy_shear;
   s.coupled = p.failure_line == dem::FailureLine::coupled;
-}
-void take(CohesiveSection &s, const dem::YieldingParallelBond &law) {
-  s.arms_at_rest = true;
-  s.shear_ratio = law.parameters.stiffness_ratio;
-  s.friction_static = std::tan(law.parameters.friction_angle), s.friction_dynamic = law.grain_friction;
-}
-[[noreturn]] void take(CohesiveSection & /*s*/, const dem::FacetBond & /*law*/) {
-  throw std::logic_error("a facet has no such closed forms"); // refused before (pair_section.cc)
-}
-
-} // namespace
-
-CohesiveSection section_of(const dem::BondLaw &law, double length, double area, double modulus) {
-  CohesiveSection s;
-  s.length = length, s.area = area, s.modulus = modulus;
-  const bool remembers = dem::of_remembering(law, [&](const auto &of) {
-    s.tensile_strength = of.parameters.tensile_strength, s.shear_strength = of.parameters.shear_strength;
-    s.compression = of.compression;
-    take(s, of);
-    return true;
-  });
-  if (!remembers) throw std::logic_error("a bond without history has other closed forms");
   return s;
 }
 
@@ -226,4 +224,4 @@ void CohesiveByHand::go(const CohesivePlace &to) {
   }
 }
 
-} // namespace platen::apps
+} // namespace platen::apps::testing

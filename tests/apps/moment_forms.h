@@ -3,9 +3,9 @@
 // breaks, as if it were pulled or sheared as a whole (theory 2.2, 2.6, 2.7).
 #pragma once
 
-#include "apps/bonds/cohesive_forms.h"
+#include "apps/cohesive_forms.h"
 
-namespace platen::apps {
+namespace platen::apps::testing {
 
 struct MomentSection {
   double stiffness = 0; // N m, k_n I or k_s J, times the sine of the turn
@@ -31,8 +31,6 @@ public:
   double stored() const; // J
   double work() const { return work_; }
   double dissipated() const { return work_ - stored(); }
-  double stiffness() const { return section_.stiffness; } // N m/rad, of a whole bond
-  double strength() const; // N m, where damage begins; infinite where it never does
 
 private:
   double used() const; // of the skin's limit, at the widest turn so far
@@ -45,4 +43,4 @@ private:
   bool failed_ = false;
 };
 
-} // namespace platen::apps
+} // namespace platen::apps::testing
