@@ -4,28 +4,41 @@
 
 #include <cmath>
 
-#include "apps/output/csv_writer.h"
 #include "apps/scene/units.h"
-#include "apps/study/tables.h"
 
 namespace platen::apps {
 namespace {
 
-constexpr const char *measure_words[measure_count] = {"strength", "strain_at_peak", "modulus",
-                                                      "broken_bonds"};
 constexpr double percent = 0.01;
-constexpr Measure all_measures[] = {Measure::strength, Measure::strain_at_peak, Measure::modulus,
-                                    Measure::broken_bonds};
 constexpr Measure priced[] = {Measure::strength, Measure::modulus};
+constexpr const char *numbers[] = {"energy_residual_relative", "kinetic_to_internal_max", "steps"};
 constexpr double bounds[] = {0.05, 0.02, 0.01, 0.001};
 
-Json statistics(const SeedStatistics &s) {
-  return {{"mean", s.mean()},
-          {"deviation", s.deviation()},
-          {"low", s.least()},
-          {"high", s.largest()},
-          {"root_mean_square", s.root_mean_square()},
-          {"runs", s.count()}};
+const char *word(Measure measure) {
+  constexpr const char *words[] = {"strength", "strain_at_peak", "modulus", "broken_bonds"};
+  return words[static_cast<std::size_t>(measure)];
+}
+
+double measured(const RunOutcome &run, Measure measure) {
+  const auto number = [&](const char *key) { return number_in(run.summary, key); };
+  if (measure == Measure::broken_bonds) return number("broken_tension") + number("broken_shear");
+  constexpr const char *keys[] = {"strength_pa", "strain_at_peak_platen", "youngs_modulus_gauge_pa"};
+  return has_peaked(run.summary) ? number(keys[static_cast<std::size_t>(measure)]) : not_given;
+}
+
+// Of a run against that of the reference on the same seed.
+double error(const RunOutcome &run, const RunOutcome &reference, Measure measure) {
+  const double exact = measured(reference, measure);
+  return exact == 0 ? not_given : measured(run, measure) / exact - 1;
+}
+
+// As for other figures, and the root of their mean square.
+Json with_root(const SeedStatistics &s) {
+  Json of = json_of(s);
+  of.erase("runs");
+  of["root_mean_square"] = s.root_mean_square();
+  of["runs"] = s.count();
+  return of;
 }
 
 std::string with_unit(const StudiedParameter &parameter, const StudiedParameter::Value &value) {
@@ -55,9 +68,10 @@ std::string table(const StudyPlan &plan, const StudiedParameter &parameter, cons
                     : std::isnan(errors.scatter_of(m))
                         ? "-"
                         : fmt::format("({:.2g})", errors.scatter_of(m) / percent));
-    row.push_back(of.residual.count() == 0 ? "-" : fmt::format("{:.1e}", of.residual.mean()));
-    row.push_back(of.kinetic.count() == 0 ? "-" : fmt::format("{:.1e}", of.kinetic.mean()));
-    row.push_back(of.steps.count() == 0 ? "-" : fmt::format("{:.0f}", of.steps.mean()));
+    for (const SeedStatistics &number : of.numbers)
+      row.push_back(number.count() == 0             ? "-"
+                    : &number == &of.numbers.back() ? fmt::format("{:.0f}", number.mean())
+                                                    : fmt::format("{:.1e}", number.mean()));
     row.push_back(short_text_of(of.seconds, 1));
     rows.push_back(std::move(row));
   }
@@ -88,78 +102,51 @@ std::string price(const StudiedParameter &parameter, const ParameterErrors &erro
 
 } // namespace
 
-const char *word(Measure measure) {
-  return measure_words[static_cast<std::size_t>(measure)];
-}
-
-void Accuracy::add(const TestRun &run, const RunOutcome &outcome) {
-  const auto number = [&](const char *key) { return number_in(outcome.summary, key); };
-  const bool peaked = StudyTables::peaked(outcome.summary);
-  cases_[run.of].push_back(
-      {word(outcome),
-       {peaked ? number("strength_pa") : not_given, peaked ? number("strain_at_peak_platen") : not_given,
-        peaked ? number("youngs_modulus_gauge_pa") : not_given,
-        number("broken_tension") + number("broken_shear")},
-       number("energy_residual_relative"),
-       number("kinetic_to_internal_max"),
-       number("steps"),
-       number("wall_seconds")});
-}
-
-double Accuracy::error(const StudiedParameter &parameter, std::size_t value, std::size_t seed,
-                       std::size_t measure) const {
-  const auto measured = [&](const StudiedParameter::Value &v) {
-    return cases_[v.of_case][seed].measures[measure];
-  };
-  const double reference = measured(parameter.values.back());
-  return reference == 0 ? not_given : measured(parameter.values[value]) / reference - 1;
-}
-
-std::vector<ParameterErrors> Accuracy::errors() const {
+std::vector<ParameterErrors> errors_of(const StudyPlan &plan, const Outcomes &outcomes) {
   std::vector<ParameterErrors> all;
-  for (const StudiedParameter &parameter : plan_.parameters) {
+  for (const StudiedParameter &parameter : plan.parameters) {
+    const std::vector<RunOutcome> &references = outcomes[parameter.values.back().of_case];
     ParameterErrors of;
-    for (std::size_t m = 0; m < measure_count; ++m) {
-      SeedStatistics reference;
-      for (const Run &run : cases_[parameter.values.back().of_case])
-        reference.add(run.measures[m]);
-      of.scatter[m] = reference.deviation() / reference.mean();
-    }
-    for (std::size_t v = 0; v < parameter.values.size(); ++v) {
+    for (const StudiedParameter::Value &value : parameter.values) {
       ValueErrors errors;
-      const std::vector<Run> &runs = cases_[parameter.values[v].of_case];
-      for (std::size_t seed = 0; seed < runs.size(); ++seed) {
-        for (std::size_t m = 0; m < measure_count; ++m)
-          errors.errors[m].add(error(parameter, v, seed, m));
-        errors.residual.add(runs[seed].residual);
-        errors.kinetic.add(runs[seed].kinetic);
-        errors.steps.add(runs[seed].steps);
-        errors.seconds.add(runs[seed].seconds);
+      for (std::size_t seed = 0; seed < references.size(); ++seed) {
+        const RunOutcome &run = outcomes[value.of_case][seed];
+        for (const Measure m : all_measures)
+          errors.errors[static_cast<std::size_t>(m)].add(error(run, references[seed], m));
+        for (std::size_t k = 0; k < std::size(numbers); ++k)
+          errors.numbers[k].add(number_in(run.summary, numbers[k]));
+        errors.seconds.add(number_in(run.summary, "wall_seconds"));
       }
       of.values.push_back(std::move(errors));
+    }
+    for (const Measure m : all_measures) {
+      SeedStatistics reference;
+      for (const RunOutcome &run : references)
+        reference.add(measured(run, m));
+      of.scatter[static_cast<std::size_t>(m)] = reference.deviation() / reference.mean();
     }
     all.push_back(std::move(of));
   }
   return all;
 }
 
-void Accuracy::write_rows(const std::filesystem::path &csv) const {
+void write_errors(const std::filesystem::path &csv, const StudyPlan &plan, const Outcomes &outcomes) {
   std::vector<std::string> columns{"knob", "value", "case", "seed", "status"};
-  for (const char *measure : measure_words)
-    columns.push_back(std::string(measure) + "_error");
-  columns.insert(columns.end(), {"energy_residual_relative", "kinetic_to_internal_max", "steps"});
+  for (const Measure m : all_measures)
+    columns.push_back(std::string(word(m)) + "_error");
+  columns.insert(columns.end(), std::begin(numbers), std::end(numbers));
   WholeTable rows(csv, columns);
-  for (const StudiedParameter &parameter : plan_.parameters)
-    for (std::size_t v = 0; v < parameter.values.size(); ++v)
-      for (std::size_t seed = 0; seed < plan_.seeds.size(); ++seed) {
-        const StudiedParameter::Value &value = parameter.values[v];
-        const Run &run = cases_[value.of_case][seed];
-        std::vector<CsvCell> cells{parameter.name, value.text, plan_.cases[value.of_case].name,
-                                   plan_.seeds[seed], run.status};
-        for (std::size_t m = 0; m < measure_count; ++m)
-          cells.emplace_back(error(parameter, v, seed, m));
-        cells.insert(cells.end(), {run.residual, run.kinetic, run.steps});
-        rows.row(cells);
+  for (const StudiedParameter &parameter : plan.parameters)
+    for (const StudiedParameter::Value &value : parameter.values)
+      for (std::size_t seed = 0; seed < plan.seeds.size(); ++seed) {
+        const RunOutcome &run = outcomes[value.of_case][seed],
+                         &reference = outcomes[parameter.values.back().of_case][seed];
+        Json cells{parameter.name, value.text, plan.cases[value.of_case].name, plan.seeds[seed], word(run)};
+        for (const Measure m : all_measures)
+          cells.push_back(error(run, reference, m));
+        for (const char *key : numbers)
+          cells.push_back(number_in(run.summary, key));
+        write_row(rows, cells);
       }
   rows.finish();
 }
@@ -193,10 +180,9 @@ Json json_of(const StudyPlan &plan, const std::vector<ParameterErrors> &errors) 
                  {"number", parameter.values[v].number},
                  {"case", plan.cases[parameter.values[v].of_case].name}};
       for (const Measure m : all_measures)
-        value["errors"][word(m)] = statistics(of.of(m));
-      value["energy_residual_relative"] = statistics(of.residual);
-      value["kinetic_to_internal_max"] = statistics(of.kinetic);
-      value["steps"] = statistics(of.steps);
+        value["errors"][word(m)] = with_root(of.of(m));
+      for (std::size_t n = 0; n < std::size(numbers); ++n)
+        value[numbers[n]] = with_root(of.numbers[n]);
       one["values"].push_back(std::move(value));
     }
     all.push_back(std::move(one));
@@ -210,7 +196,7 @@ Json costs_of(const StudyPlan &plan, const std::vector<ParameterErrors> &errors)
     const StudiedParameter &parameter = plan.parameters[k];
     for (std::size_t v = 0; v < parameter.values.size(); ++v) {
       Json seconds{{"knob", parameter.name}, {"value", parameter.values[v].text}};
-      seconds.update(statistics(errors[k].values[v].seconds));
+      seconds.update(with_root(errors[k].values[v].seconds));
       costs["wall_seconds"].push_back(std::move(seconds));
     }
     for (const Measure m : priced)

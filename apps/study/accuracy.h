@@ -7,56 +7,36 @@
 #include <string>
 #include <vector>
 
-#include "apps/many/runs.h"
 #include "apps/output/seed_statistics.h"
 #include "apps/output/summary.h"
-#include "apps/study/cases.h"
+#include "apps/study/tables.h"
 
 namespace platen::apps {
 
 // What errors are told of; broken bonds are those at the end of a run.
 enum class Measure { strength, strain_at_peak, modulus, broken_bonds };
-constexpr std::size_t measure_count = 4;
-const char *word(Measure measure);
+constexpr std::array all_measures{Measure::strength, Measure::strain_at_peak, Measure::modulus,
+                                  Measure::broken_bonds};
 
-struct ValueErrors {                                // of one value of a parameter, over the seeds
-  std::array<SeedStatistics, measure_count> errors; // over the reference on the same seed, less one
-  SeedStatistics residual, kinetic, steps;          // as in summary.json
-  SeedStatistics seconds;                           // of wall clock, a run
+struct ValueErrors {                                      // of one value of a parameter, over the seeds
+  std::array<SeedStatistics, all_measures.size()> errors; // over the reference on the same seed, less one
+  std::array<SeedStatistics, 3> numbers; // relative residual of energy, kinetic over internal energy, steps
+  SeedStatistics seconds;                // of wall clock, a run
   const SeedStatistics &of(Measure m) const { return errors[static_cast<std::size_t>(m)]; }
 };
 
 struct ParameterErrors {
   // Standard deviation over mean of the reference's seeds: accuracy below it is lost among specimens.
-  std::array<double, measure_count> scatter;
+  std::array<double, all_measures.size()> scatter;
   std::vector<ValueErrors> values; // as StudiedParameter::values
   double scatter_of(Measure m) const { return scatter[static_cast<std::size_t>(m)]; }
 };
 
-class Accuracy {
-public:
-  explicit Accuracy(const StudyPlan &plan) : plan_(plan), cases_(plan.cases.size()) {}
-
-  // Runs, in their order. A run that failed or never peaked has no strength and no strain at the peak.
-  void add(const TestRun &run, const RunOutcome &outcome);
-
-  // Once all runs are there, by parameters of the plan.
-  std::vector<ParameterErrors> errors() const;
-  // A row for each value of each parameter and each seed; repeats to the byte.
-  void write_rows(const std::filesystem::path &csv) const;
-
-private:
-  struct Run {
-    const char *status;                         // "done", "failed", "missing"
-    std::array<double, measure_count> measures; // SI; NaN: not measured
-    double residual, kinetic, steps, seconds;
-  };
-  double error(const StudiedParameter &parameter, std::size_t value, std::size_t seed,
-               std::size_t measure) const;
-
-  const StudyPlan &plan_;
-  std::vector<std::vector<Run>> cases_; // by case, then by seed
-};
+// By parameters of the plan. A run that failed or never peaked has no strength, no strain at the peak and no
+// modulus.
+std::vector<ParameterErrors> errors_of(const StudyPlan &plan, const Outcomes &outcomes);
+// A row for each value of each parameter and each seed; repeats to the byte. Throws OutputError.
+void write_errors(const std::filesystem::path &csv, const StudyPlan &plan, const Outcomes &outcomes);
 
 // The cheapest value of an ordered parameter whose error is within a bound (root mean square over all seeds),
 // as are those of all finer values: what one coarse value reaches by chance does not count. Nothing where

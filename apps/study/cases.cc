@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "apps/programs.h"
-#include "apps/run/needs.h"
 #include "apps/run/shared_packing.h"
 #include "apps/scene/errors.h"
 #include "apps/scene/parameters.h"
@@ -15,6 +14,10 @@
 
 namespace platen::apps {
 namespace {
+
+StudyCase of_radius(double radius) {
+  return {"sphere_radius_" + in_name(radius, "m"), {set("Specimen/Sphere radius", radius, "m")}};
+}
 
 // Table 14 of Tannu 2017: spheres of 0.5 to 1.25 mm in a cylinder of the radius 25 mm, in proportion for
 // another specimen.
@@ -30,26 +33,22 @@ StudyPlan plan_size(const Scene &scene) {
   const SpecimenSection &s = scene.specimen;
   const Study &study = study_of(scene);
   if (s.packing == PackingKind::file)
-    scene.parameters->refuse("Specimen/Packing",
-                             "has one size: a study of it packs its own. Allowed: advancing front, "
-                             "random close.");
-  StudyPlan plan;
-  plan.varied = {"sphere_radius_m", "height_m", "radius_m"};
+    refuse(scene, "Specimen/Packing",
+           "has one size: a study of it packs its own. Allowed: advancing front, "
+           "random close.");
   const bool nothing_given = study.sphere_radii.empty() && study.domains.empty();
   const std::vector<double> radii =
       nothing_given ? radii_in_proportion(s) : or_own(study.sphere_radii, s.sphere_radius);
+  StudyPlan plan{StudyKind::size, {"sphere_radius_m", "height_m", "radius_m"}, {}};
   for (const double radius : radii)
-    add(plan, {"sphere_radius_" + in_name(radius, "m"),
-               {radius, s.height, s.radius},
-               {set("Specimen/Sphere radius", radius, "m")}});
+    add(plan, of_radius(radius));
   for (const DomainSize &d : study.domains) {
-    const bool own = d.height == s.height && d.radius == s.radius;
-    const std::string name = "sphere_radius_" + in_name(s.sphere_radius, "m"),
-                      size = "_height_" + in_name(d.height, "m") + "_radius_" + in_name(d.radius, "m");
-    add(plan, {own ? name : name + size,
-               {s.sphere_radius, d.height, d.radius},
-               {set("Specimen/Sphere radius", s.sphere_radius, "m"), set("Specimen/Height", d.height, "m"),
-                set("Specimen/Radius", d.radius, "m")}});
+    StudyCase one = of_radius(s.sphere_radius);
+    if (d.height != s.height || d.radius != s.radius)
+      one.name += "_height_" + in_name(d.height, "m") + "_radius_" + in_name(d.radius, "m");
+    one.overrides.push_back(set("Specimen/Height", d.height, "m"));
+    one.overrides.push_back(set("Specimen/Radius", d.radius, "m"));
+    add(plan, one);
   }
   return plan;
 }
@@ -57,50 +56,52 @@ StudyPlan plan_size(const Scene &scene) {
 StudyPlan plan_packing(const Scene &scene) {
   const Study &study = study_of(scene);
   const bool none = !scene.bond.bonded();
-  const Parameters &p = *scene.parameters;
   if (study.gaps.empty() && study.radius_multipliers.empty() && study.radius_spreads.empty())
-    p.refuse("Study/Gap list",
-             "is not set, nor are Radius multiplier list and Radius spread list: nothing is varied. "
-             "Allowed: at least one of them.");
+    refuse(scene, "Study/Gap list",
+           "is not set, nor are Radius multiplier list and Radius spread list: nothing is varied. "
+           "Allowed: at least one of them.");
   if (!study.gaps.empty() && (none || scene.bond.bonds_by_range()))
-    p.refuse("Study/Gap list", "has no effect: Effects/Bond = " + p.at("Effects/Bond").text +
-                                   ". Allowed: parallel bond, cohesive beam.");
+    refuse(scene, "Study/Gap list",
+           "has no effect: Effects/Bond = " + scene.parameters->at("Effects/Bond").text +
+               ". Allowed: parallel bond, cohesive beam.");
   if (!study.radius_multipliers.empty() && none)
-    p.refuse("Study/Radius multiplier list", "has no effect: Effects/Bond = none.");
+    refuse(scene, "Study/Radius multiplier list", "has no effect: Effects/Bond = none.");
   if (!study.radius_spreads.empty() && scene.specimen.packing == PackingKind::file)
-    p.refuse("Study/Radius spread list", "has no effect: Specimen/Packing = file.");
-  StudyPlan plan;
-  plan.varied = {"gap_over_radius", "gap_m", "radius_multiplier", "radius_spread"};
-  for (const double spread : or_own(study.radius_spreads, scene.specimen.radius_spread))
-    for (const double multiplier :
-         or_own(study.radius_multipliers, scene.model.bond_layout.radius_multiplier))
-      for (const Gap &gap : or_own(study.gaps, scene.model.bond_layout.gap)) {
-        StudyCase one;
-        one.name = "gap_" + (gap.relative ? in_name(gap.value) : in_name(gap.value, "m")) + "_multiplier_" +
-                   in_name(multiplier) + "_spread_" + in_name(spread);
-        one.labels = {gap.relative ? gap.value : not_given, gap.relative ? not_given : gap.value, multiplier,
-                      spread};
-        // What is not varied stays as the scene says it, even where that has no effect.
-        if (!study.gaps.empty()) one.overrides.push_back("Bond/Gap = " + text_of(gap));
-        if (!study.radius_multipliers.empty())
-          one.overrides.push_back(set("Bond/Radius multiplier", multiplier, ""));
-        if (!study.radius_spreads.empty()) one.overrides.push_back(set("Specimen/Radius spread", spread, ""));
-        add(plan, one);
-      }
-  return plan;
+    refuse(scene, "Study/Radius spread list", "has no effect: Specimen/Packing = file.");
+  // What is not varied stays as the scene says it, even where that has no effect.
+  const auto named = [](const std::string &name, bool varied, const std::string &entry) {
+    return StudyCase{name, varied ? std::vector{entry} : std::vector<std::string>{}};
+  };
+  const dem::BondLayout &layout = scene.model.bond_layout;
+  const auto gaps = cases_of(or_own(study.gaps, layout.gap), [&](const Gap &gap) {
+    return named("gap_" + (gap.relative ? in_name(gap.value) : in_name(gap.value, "m")), !study.gaps.empty(),
+                 "Bond/Gap = " + text_of(gap));
+  });
+  const auto multipliers =
+      cases_of(or_own(study.radius_multipliers, layout.radius_multiplier), [&](double multiplier) {
+        return named("multiplier_" + in_name(multiplier), !study.radius_multipliers.empty(),
+                     set("Bond/Radius multiplier", multiplier, ""));
+      });
+  const auto spreads =
+      cases_of(or_own(study.radius_spreads, scene.specimen.radius_spread), [&](double spread) {
+        return named("spread_" + in_name(spread), !study.radius_spreads.empty(),
+                     set("Specimen/Radius spread", spread, ""));
+      });
+  return {StudyKind::packing,
+          {"gap_over_radius", "gap_m", "radius_multiplier", "radius_spread"},
+          times(times(gaps, multipliers), spreads)};
 }
 
 StudyPlan plan_rate(const Scene &scene) {
-  if (study_of(scene).axial_rates.empty())
-    scene.parameters->refuse("Study/Axial rate list",
-                             "is not set: nothing is varied. Allowed: speeds with commas between them.");
+  const std::vector<double> &rates = study_of(scene).axial_rates;
+  if (rates.empty())
+    refuse(scene, "Study/Axial rate list",
+           "is not set: nothing is varied. Allowed: speeds with commas between them.");
   if (scene.loading.hydrostatic() || scene.loading.servo)
-    scene.parameters->refuse("Study/Axial rate list", "needs platens that are driven by motion.");
-  StudyPlan plan;
-  plan.varied = {"axial_rate_m_s"};
-  for (const double rate : study_of(scene).axial_rates)
-    add(plan, {"rate_" + in_name(rate), {rate}, {set("Loading/Axial rate", rate, "m/s")}});
-  return plan;
+    refuse(scene, "Study/Axial rate list", "needs platens that are driven by motion.");
+  return {StudyKind::rate, {"axial_rate_m_s"}, cases_of(rates, [](double rate) {
+            return StudyCase{"rate_" + in_name(rate), {set("Loading/Axial rate", rate, "m/s")}};
+          })};
 }
 
 // "friction_static", "confining_pressure_pa": the key, with its SI unit.
@@ -117,8 +118,7 @@ double number_of(const std::string &text, const std::string &unit) {
 }
 
 StudyPlan plan_vary(const Scene &scene) {
-  StudyPlan plan;
-  plan.cases = {StudyCase{}};
+  StudyPlan plan{StudyKind::vary, {}, {StudyCase{}}};
   for (const Varied &one : study_of(scene).vary) {
     if (one.path.empty()) continue;
     const std::string &unit = scene.parameters->at(one.path).unit;
@@ -126,20 +126,16 @@ StudyPlan plan_vary(const Scene &scene) {
     std::vector<StudyCase> all;
     for (const StudyCase &before : plan.cases)
       for (const std::string &value : one.values) {
-        all.push_back(before);
         const std::string name = as_name(one.path.substr(one.path.rfind('/') + 1) + " " + value);
-        all.back().name += (before.name.empty() ? "" : "_") + name;
-        if (one.path != "Loading/Confining pressure")
-          all.back().envelope += (before.envelope.empty() ? "" : "_") + name;
-        all.back().labels.push_back(number_of(value, unit));
-        all.back().words.push_back(std::isnan(all.back().labels.back()) ? value : "");
-        all.back().overrides.push_back(one.path + " = " + value);
+        const double number = number_of(value, unit);
+        StudyCase with{name, {one.path + " = " + value}, {number}, {std::isnan(number) ? value : ""}};
+        if (one.path != "Loading/Confining pressure") with.envelope = name;
+        all.push_back(joined(before, with));
       }
     plan.cases = std::move(all);
   }
   if (plan.varied.empty())
-    scene.parameters->refuse("Study/Vary 1",
-                             "is not set: nothing is varied. Allowed: \"Section/Key: value, value\".");
+    refuse(scene, "Study/Vary 1", "is not set: nothing is varied. Allowed: \"Section/Key: value, value\".");
   return plan;
 }
 
@@ -149,7 +145,67 @@ using Plan = StudyPlan (*)(const Scene &);
 constexpr std::array<Plan, study_words.size() - 1> plans{
     plan_friction, plan_slenderness, plan_size, plan_packing, plan_rate, plan_accuracy, plan_vary};
 
+double slenderness(const Scene &s) {
+  return to_twelve_digits(s.specimen.height / s.specimen.width());
+}
+
+const CaseColumn columns[] = {
+    {"friction_static",
+     [](const Scene &s) { return common_friction(s) ? common_friction(s)->friction_static : not_given; },
+     "friction"},
+    {"friction_dynamic",
+     [](const Scene &s) { return common_friction(s) ? common_friction(s)->friction_dynamic : not_given; }},
+    {"slenderness", slenderness, "height/width"},
+    {"confining_pressure_pa",
+     [](const Scene &s) { return s.loading.confined() ? s.loading.cell->pressure : 0.0; }, "cell, MPa", 1e6},
+    {"sphere_radius_m", [](const Scene &s) { return s.specimen.sphere_radius; }, "sphere, mm", 1e-3},
+    {"height_m", [](const Scene &s) { return s.specimen.height; }, "height, mm", 1e-3},
+    {"radius_m", [](const Scene &s) { return s.specimen.radius; }, "radius, mm", 1e-3},
+    {"gap_over_radius",
+     [](const Scene &s) {
+       const Gap &gap = s.model.bond_layout.gap;
+       return gap.relative ? gap.value : not_given;
+     },
+     "gap/R"},
+    {"gap_m",
+     [](const Scene &s) {
+       const Gap &gap = s.model.bond_layout.gap;
+       return gap.relative ? not_given : gap.value;
+     },
+     "gap, mm", 1e-3},
+    {"radius_multiplier", [](const Scene &s) { return s.model.bond_layout.radius_multiplier; }, "multiplier"},
+    {"radius_spread", [](const Scene &s) { return s.specimen.radius_spread; }, "spread"},
+    {"axial_rate_m_s", [](const Scene &s) { return s.loading.rate; }, "rate, m/s"},
+    {"safety", [](const Scene &s) { return s.time_step.safety; }},
+    {"wave_crossings", [](const Scene &s) { return s.loading.wave_transits; }},
+    {"hurry", [](const Scene &s) { return s.loading.rate_multiplier; }},
+    {"mass_scaling", [](const Scene &s) { return s.model.mass_scaling; }},
+    {"elements_across", [](const Scene &s) { return static_cast<double>(s.platens.elements_across); }},
+    {"steps_per_solve",
+     [](const Scene &s) { return static_cast<double>(s.platens.elastic->steps_per_solve); }},
+    {"sleeve_elements_around",
+     [](const Scene &s) { return static_cast<double>(s.loading.cell->sleeve->elements_around); }},
+    {"sleeve_mass_scaling", [](const Scene &s) { return s.loading.cell->sleeve->mass_scaling; }}};
+
+void set_labels(const StudyPlan &plan, const Scene &led_to, StudyCase &of) {
+  if (of_platens(plan.kind)) of.surface = surface_of(led_to);
+  for (const std::string &column : plan.varied)
+    of.labels.push_back(plan.kind != StudyKind::accuracy || decides(column, led_to)
+                            ? case_column(column)->of(led_to)
+                            : not_given);
+}
+
 } // namespace
+
+const CaseColumn *case_column(const std::string &name) {
+  const auto *const found = std::find_if(std::begin(columns), std::end(columns),
+                                         [&](const CaseColumn &one) { return one.name == name; });
+  return found == std::end(columns) ? nullptr : found;
+}
+
+std::size_t StudyPlan::place_of(const std::string &column) const {
+  return static_cast<std::size_t>(std::find(varied.begin(), varied.end(), column) - varied.begin());
+}
 
 const char *word(StudyKind kind) {
   return study_words[static_cast<std::size_t>(kind)];
@@ -169,6 +225,27 @@ std::string as_name(const std::string &words) {
   return name;
 }
 
+StudyCase joined(StudyCase a, const StudyCase &b) {
+  const auto append = [](auto &to, const auto &from) { to.insert(to.end(), from.begin(), from.end()); };
+  const auto append_name = [](std::string &to, const std::string &from) {
+    to += (to.empty() || from.empty() ? "" : "_") + from;
+  };
+  append_name(a.name, b.name);
+  append_name(a.envelope, b.envelope);
+  append(a.overrides, b.overrides);
+  append(a.labels, b.labels);
+  append(a.words, b.words);
+  return a;
+}
+
+std::vector<StudyCase> times(const std::vector<StudyCase> &first, const std::vector<StudyCase> &second) {
+  std::vector<StudyCase> all;
+  for (const StudyCase &slow : second)
+    for (const StudyCase &fast : first)
+      all.push_back(joined(fast, slow));
+  return all;
+}
+
 std::size_t add(StudyPlan &plan, StudyCase one) {
   const auto found = std::find_if(plan.cases.begin(), plan.cases.end(),
                                   [&](const StudyCase &other) { return other.name == one.name; });
@@ -180,8 +257,8 @@ std::size_t add(StudyPlan &plan, StudyCase one) {
 void require_fall(const Scene &scene) {
   constexpr double peak_fall = 0.8; // of the peak: where damage is measured (middle_damage)
   if (scene.loading.stop_at_residual >= peak_fall)
-    scene.parameters->refuse("Loading/Stop at residual",
-                             "ends a run before it is known to have peaked. Allowed: below 0.8.");
+    refuse(scene, "Loading/Stop at residual",
+           "ends a run before it is known to have peaked. Allowed: below 0.8.");
 }
 
 std::vector<std::string> overrides_of(const StudyCase &of, unsigned long seed,
@@ -204,18 +281,16 @@ Scene scene_of(const StudyCase &of, StudyKind kind, const Scene &scene, unsigned
 }
 
 StudyPlan plan_study(StudyKind kind, const Scene &scene, const std::vector<std::string> &overrides) {
-  StudyPlan plan = kind == StudyKind::target ? plan_target(scene, overrides)
-                                             : plans[static_cast<std::size_t>(kind)](scene);
+  const bool target = kind == StudyKind::target;
+  StudyPlan plan = target ? plan_target(scene, overrides) : plans[static_cast<std::size_t>(kind)](scene);
   plan.kind = kind;
-  const int seeds = kind == StudyKind::target ? study_of(scene).target.pilot_seeds : study_of(scene).seeds;
+  const int seeds = target ? study_of(scene).target.pilot_seeds : study_of(scene).seeds;
   for (int k = 0; k < seeds; ++k)
     plan.seeds.push_back(scene.general.seed + static_cast<unsigned long>(k));
   for (StudyCase &one : plan.cases) {
     const Scene led_to = scene_of(one, kind, scene, plan.seeds.back(), overrides);
-    if (of_platens(kind)) label_platens(one, led_to);
-    const double seconds = counted_costs(led_to).seconds;
-    one.seconds = std::isfinite(seconds) ? seconds : 0;
-    if (kind == StudyKind::accuracy) label_parameters(one, led_to);
+    if (kind != StudyKind::vary) set_labels(plan, led_to, one);
+    one.costs = counted_costs(led_to);
     for (const unsigned long seed : plan.seeds) {
       const std::string recipe = packing_recipe(led_to, seed);
       one.packings.push_back(recipe.empty() ? "" : packing_name(recipe));

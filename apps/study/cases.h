@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/output/summary.h"
+#include "apps/run/needs.h"
 #include "apps/scene/scene.h"
 #include "apps/scene/units.h"
 
@@ -18,22 +20,21 @@ inline bool of_platens(StudyKind kind) {
 }
 
 struct StudyCase {
-  std::string name;                    // of folders and tables: "sphere_radius_1_mm"
-  std::vector<double> labels;          // one for each column of StudyPlan::varied, SI; NaN where it has none
-  std::vector<std::string> overrides;  // "Section/Key = value"
-  std::vector<std::string> words = {}; // by label: where it is a word instead of a number; else ""
-  std::string surface = {};            // what the platens are, in words; studies of platens
-  std::vector<std::string> packings = {}; // by seed: packing_name of its specimen; "" of one from a file
-  std::string scene = {};                 // that its entries change; "": the study's
-  std::string envelope = {};              // its name but for its pressure: what one failure envelope is of
-  double seconds = 0; // of a run, counted from its scene (apps/run/needs.h); 0 where that cannot be
-};
+  std::string name = {};                   // of folders and tables: "sphere_radius_1_mm"
+  std::vector<std::string> overrides = {}; // "Section/Key = value"
+  std::vector<double> labels = {};         // one for each of StudyPlan::varied, SI; NaN where it has none
+  std::vector<std::string> words = {};     // by label: where it is a word instead of a number; else ""
+  std::string surface = {};                // what the platens are, in words; studies of platens
+  std::vector<std::string> packings = {};  // by seed: packing_name of its specimen; "" of one from a file
+  std::string scene = {};                  // that its entries change; "": the study's
+  std::string envelope = {};               // its name but for its pressure: what one failure envelope is of
+  CountedCosts costs = {};                 // of a run, counted from its scene; NaN where that cannot be
+  bool is_expected = true;                 // whether what the scene expects holds for it
 
-// f of a label: of its word, or of its number.
-template <class F>
-auto with_label(const StudyCase &of, std::size_t label, const F &f) {
-  return label < of.words.size() && !of.words[label].empty() ? f(of.words[label]) : f(of.labels[label]);
-}
+  Json label(std::size_t k) const {
+    return k < words.size() && !words[k].empty() ? Json(words[k]) : Json(labels[k]);
+  }
+};
 
 // What trades accuracy for time, turned alone; all else is as the scene has it.
 struct StudiedParameter {
@@ -52,12 +53,15 @@ struct StudyPlan {
   StudyKind kind = StudyKind::size;
   std::vector<std::string> varied; // columns that tell the cases apart
   std::vector<StudyCase> cases;    // in the order in which they run; no two the same
-  std::vector<unsigned long> seeds;
+  std::vector<unsigned long> seeds = {};
   std::vector<StudiedParameter> parameters = {}; // study of accuracy
+
+  // The place of a column in `varied`; their number where it is none of them.
+  std::size_t place_of(const std::string &column) const;
 };
 
 const char *word(StudyKind kind);
-// Of a word of study_words (apps/scene/apps.h): the command line has refused any other.
+// Of a word of study_words (study_section.h): the command line has refused any other.
 StudyKind study_kind(const std::string &word);
 
 // Throws InputError where the scene leaves a kind nothing to vary, or where a case is a scene that
@@ -72,6 +76,16 @@ std::vector<std::string> overrides_of(const StudyCase &of, unsigned long seed,
 Scene scene_of(const StudyCase &of, StudyKind kind, const Scene &scene, unsigned long seed,
                const std::vector<std::string> &overrides);
 
+// A column of study.csv that tells cases apart, in the order of the tables.
+struct CaseColumn {
+  const char *name;            // "sphere_radius_m"
+  double (*of)(const Scene &); // of the scene that a case leads to, SI; NaN where it has none
+  const char *head = nullptr;  // on the screen, in multiples of `unit`; null: it is not shown
+  double unit = 1;
+};
+// Null of one that only a study of any entries has.
+const CaseColumn *case_column(const std::string &name);
+
 // Cases of the studies of platens: what faces the specimen, and how slender it is. Platens x slendernesses x
 // sphere radii x pressures of the scene's section Study; a list that is empty leaves what the scene has. A
 // specimen of another height is packed anew with the same recipe, spheres, width and seed, and pressed at the
@@ -79,8 +93,10 @@ Scene scene_of(const StudyCase &of, StudyKind kind, const Scene &scene, unsigned
 // nothing to vary or the scene contradicts it.
 StudyPlan plan_friction(const Scene &scene);
 StudyPlan plan_slenderness(const Scene &scene); // one kind of platens
-// Fills StudyCase::surface and labels from the scene that the case leads to.
-void label_platens(StudyCase &of, const Scene &led_to);
+// What the platens of a scene are, in words.
+std::string surface_of(const Scene &scene);
+// Their coefficients of friction; null where they differ or are glued.
+const dem::SurfaceFriction *common_friction(const Scene &scene);
 
 // Cases of the study of accuracy: what trades accuracy for time, one thing at a time. A case for each value
 // of each list of the section Study that such a study knows, all else as the scene has it; what the scene has
@@ -88,28 +104,29 @@ void label_platens(StudyCase &of, const Scene &led_to);
 // reference of the others; that of Study/Effects list is the scene as it is. Throws InputError where nothing
 // is varied, a list goes the wrong way, or the scene contradicts it.
 StudyPlan plan_accuracy(const Scene &scene);
-// Fills StudyCase::labels from the scene that the case leads to.
-void label_parameters(StudyCase &of, const Scene &led_to);
+// Whether a column of such a study decides anything in the scene that a case leads to.
+bool decides(const std::string &column, const Scene &scene);
 
 // Cases of a target: the scene at each speed of Study/Wave crossings list, and what a gain is over likewise;
 // the fastest again with half the step and with coarser spheres, where these are asked for. Seeds are those
 // of the pilot; which further ones are run is decided as it goes (target_study.h). Half a step and coarser
 // spheres are those of each scene itself. Throws InputError where a scene leaves nothing to plan.
 StudyPlan plan_target(const Scene &scene, const std::vector<std::string> &overrides);
-// The speeds it chooses from.
-std::vector<double> target_transits(const Scene &scene);
-// Places of its cases.
-struct TargetCases {
-  std::size_t speeds = 0, scenes = 1;
-  bool half_step = false, coarser = false;
-  std::size_t at(std::size_t scene, std::size_t speed) const { return scene * speeds + speed; }
-  std::size_t of_half_step(std::size_t scene) const { return scenes * speeds + scene; }
-  std::size_t of_coarser(std::size_t scene) const { return scenes * (speeds + (half_step ? 1 : 0)) + scene; }
-};
-TargetCases target_cases(const Scene &scene);
 
 // What the plans of several kinds need.
 
+// A case of each value of a list by of(value); of an empty list the scene as it is.
+template <class Value, class Of>
+std::vector<StudyCase> cases_of(const std::vector<Value> &list, const Of &of) {
+  std::vector<StudyCase> cases(list.empty() ? 1 : 0);
+  for (const Value &value : list)
+    cases.push_back(of(value));
+  return cases;
+}
+// Both together: names, entries and labels one after the other.
+StudyCase joined(StudyCase a, const StudyCase &b);
+// Each of the first with each of the second, which changes more slowly.
+std::vector<StudyCase> times(const std::vector<StudyCase> &first, const std::vector<StudyCase> &second);
 // Its place in the plan; what two lists lead to is one case, which runs once.
 std::size_t add(StudyPlan &plan, StudyCase one);
 // Throws InputError where a run may end before its stress has fallen to 0.8 of the peak, where damage is

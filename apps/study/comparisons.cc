@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "apps/output/csv_writer.h"
 #include "apps/scene/surfaces.h"
+#include "apps/study/tables.h"
 
 namespace platen::apps {
 namespace {
@@ -23,11 +23,6 @@ constexpr double laboratory_prism = 2.39; // Hughes and Bahramian 1967: 244 mm x
 constexpr double free_friction = 0.05; // and below: sheets of Teflon
 constexpr double steel_friction = 0.3; // and above: the strength of cubes hardly depends on it
 constexpr double nearly = 1e-9;        // of a slenderness, for the round-off of heights
-
-double label(const StudyPlan &plan, std::size_t of, const char *column) {
-  const auto place = std::find(plan.varied.begin(), plan.varied.end(), column) - plan.varied.begin();
-  return plan.cases[of].labels[static_cast<std::size_t>(place)];
-}
 
 bool equal(double a, double b) {
   return std::abs(a - b) <= nearly * std::abs(b);
@@ -82,84 +77,66 @@ std::vector<LaboratoryFigure> all_figures() {
           of_cores(0.5, 0.50, flatter)};
 }
 
-class Comparing {
-public:
-  Comparing(const StudyPlan &plan, const std::vector<std::vector<double>> &strengths,
-            const CalibratedFor &bonds)
-      : plan_(plan), strengths_(strengths), bonds_(bonds) {}
-  // What case k is compared with.
-  void add_all(std::size_t k);
-  std::vector<Comparison> comparisons;
+// What a case presses.
+struct Pressed {
+  double friction, slenderness, sphere_radius, pressure;
+  std::string surface;
 
-private:
-  double friction(std::size_t k) const { return label(plan_, k, "friction_static"); }
-  double slenderness(std::size_t k) const { return label(plan_, k, "slenderness"); }
-  bool alike(std::size_t a, std::size_t b, const char *column) const {
-    return equal(label(plan_, a, column), label(plan_, b, column));
+  Pressed(const StudyPlan &plan, std::size_t k) : surface(plan.cases[k].surface) {
+    const auto label = [&](const char *column) { return plan.cases[k].labels[plan.place_of(column)]; };
+    friction = label("friction_static"), slenderness = label("slenderness");
+    sphere_radius = label("sphere_radius_m"), pressure = label("confining_pressure_pa");
   }
-  bool same_platens(std::size_t a, std::size_t b) const {
-    return plan_.cases[a].surface == plan_.cases[b].surface;
+  bool has_free_ends() const { return friction <= free_friction; }
+  bool has_steel() const {
+    return friction >= steel_friction && surface != apps::surface(SurfaceKind::rubber_sheet).word &&
+           surface != apps::surface(SurfaceKind::brush).word;
   }
-
-  // Compares with the case of the same grains and pressure that may be taken and has the least rank; of
-  // several with the first.
-  template <class May, class Rank>
-  void add(PlatenEffect effect, std::size_t k, const May &may, const Rank &rank) {
-    std::optional<std::size_t> best;
-    for (std::size_t other = 0; other < plan_.cases.size(); ++other)
-      if (other != k && alike(k, other, "sphere_radius_m") && alike(k, other, "confining_pressure_pa") &&
-          may(other) && (!best || rank(other) < rank(*best)))
-        best = other;
-    if (best) add(effect, k, *best);
+  std::string text() const {
+    return fmt::format("{} {:.3g}", surface, slenderness) +
+           (pressure > 0 ? fmt::format(" {:.3g} MPa", 1e-6 * pressure) : "");
   }
-
-  void add(PlatenEffect effect, std::size_t of, std::size_t over) {
-    Comparison comparison{effect, of, over, {}, nullptr, bonds_.against(needed_for(effect))};
-    for (std::size_t seed = 0; comparison.reason.empty() && seed < plan_.seeds.size(); ++seed)
-      comparison.ratio.add(strengths_[of][seed] / strengths_[over][seed]);
-    const std::string &faces = plan_.cases[of].surface;
-    const bool free_ends = friction(of) <= free_friction,
-               steel = friction(of) >= steel_friction && faces != surface(SurfaceKind::rubber_sheet).word &&
-                       faces != surface(SurfaceKind::brush).word;
-    if (label(plan_, of, "confining_pressure_pa") == 0 && (free_ends || steel))
-      comparison.laboratory = laboratory_figure(effect, free_ends, slenderness(of));
-    comparisons.push_back(std::move(comparison));
-  }
-
-  const StudyPlan &plan_;
-  const std::vector<std::vector<double>> &strengths_;
-  const CalibratedFor &bonds_;
 };
 
-void Comparing::add_all(std::size_t k) {
-  add(
-      PlatenEffect::gain, k,
-      [&](std::size_t other) {
-        return alike(k, other, "slenderness") && friction(other) <= free_friction &&
-               !(friction(other) >= friction(k));
-      },
-      [&](std::size_t other) { return friction(other); });
-  if (equal(slenderness(k), 2)) return;
-  add(
-      PlatenEffect::relative_strength, k,
-      [&](std::size_t other) { return same_platens(k, other) && equal(slenderness(other), 2); },
-      [](std::size_t) { return 0; });
-  if (!equal(slenderness(k), 1)) return;
-  add(
-      PlatenEffect::cube_over_prism, k,
-      [&](std::size_t other) { return same_platens(k, other) && slenderness(other) >= 2 * (1 - nearly); },
-      [&](std::size_t other) { return std::abs(slenderness(other) - laboratory_prism); });
+// Whether a strength may stand over another of the same grains and pressure; what is taken of several.
+bool may_stand_over(PlatenEffect effect, const Pressed &own, const Pressed &other) {
+  if (effect == PlatenEffect::gain)
+    return equal(own.slenderness, other.slenderness) && other.has_free_ends() &&
+           !(other.friction >= own.friction);
+  if (own.surface != other.surface) return false;
+  return effect == PlatenEffect::relative_strength
+             ? !equal(own.slenderness, 2) && equal(other.slenderness, 2)
+             : equal(own.slenderness, 1) && other.slenderness >= 2 * (1 - nearly);
+}
+double rank(PlatenEffect effect, const Pressed &other) { // the least; of equal ones the first
+  if (effect == PlatenEffect::gain) return other.friction;
+  return effect == PlatenEffect::cube_over_prism ? std::abs(other.slenderness - laboratory_prism) : 0;
 }
 
-std::string words(const LaboratoryFigure &f) {
+std::optional<std::size_t> compared_with(PlatenEffect effect, const std::vector<Pressed> &all,
+                                         std::size_t k) {
+  std::optional<std::size_t> best;
+  for (std::size_t other = 0; other < all.size(); ++other)
+    if (other != k && equal(all[k].sphere_radius, all[other].sphere_radius) &&
+        equal(all[k].pressure, all[other].pressure) && may_stand_over(effect, all[k], all[other]) &&
+        (!best || rank(effect, all[other]) < rank(effect, all[*best])))
+      best = other;
+  return best;
+}
+
+std::vector<Pressed> pressed_of(const StudyPlan &plan) {
+  std::vector<Pressed> all;
+  for (std::size_t k = 0; k < plan.cases.size(); ++k)
+    all.emplace_back(plan, k);
+  return all;
+}
+
+std::string laboratory_text(const Comparison &c) {
+  const LaboratoryFigure &f = *c.laboratory;
   const std::string range = f.low < f.high ? fmt::format(" ({:.2f} ... {:.2f})", f.low, f.high) : "";
-  return fmt::format("{:.2f}{}, {}", f.mean, range, f.source);
-}
-
-// Of the mean against the laboratory; "" where there is nothing to judge.
-const char *verdict(const Comparison &c) {
-  if (c.laboratory == nullptr || c.ratio.count() == 0) return "";
-  return c.outside() ? "outside" : "within";
+  return fmt::format("{} {:.2f}{}, {}",
+                     c.verdict() == std::string("outside") ? "outside the laboratory's" : "laboratory",
+                     f.mean, range, f.source);
 }
 
 } // namespace
@@ -187,23 +164,22 @@ const LaboratoryFigure *laboratory_figure(PlatenEffect effect, bool free_ends, d
 
 std::vector<Comparison> compare(const StudyPlan &plan, const std::vector<std::vector<double>> &strengths,
                                 const CalibratedFor &bonds) {
-  Comparing comparing(plan, strengths, bonds);
-  for (std::size_t k = 0; k < plan.cases.size(); ++k)
-    comparing.add_all(k);
-  return std::move(comparing.comparisons);
-}
-
-void write_comparisons(const std::filesystem::path &csv, const StudyPlan &plan,
-                       const std::vector<Comparison> &comparisons) {
-  WholeTable rows(csv, {"effect", "case", "over", "mean", "deviation", "runs", "laboratory_mean",
-                        "laboratory_low", "laboratory_high", "verdict", "laboratory_source", "reason"});
-  for (const Comparison &c : comparisons) {
-    const LaboratoryFigure *l = c.laboratory;
-    rows.row({word(c.effect), plan.cases[c.of].name, plan.cases[c.over].name, c.ratio.mean(),
-              c.ratio.deviation(), c.ratio.count(), l ? l->mean : not_given, l ? l->low : not_given,
-              l ? l->high : not_given, verdict(c), l ? l->source.c_str() : "", c.reason});
-  }
-  rows.finish();
+  std::vector<Comparison> comparisons;
+  const std::vector<Pressed> all = pressed_of(plan);
+  for (std::size_t k = 0; k < all.size(); ++k)
+    for (const PlatenEffect effect :
+         {PlatenEffect::gain, PlatenEffect::relative_strength, PlatenEffect::cube_over_prism}) {
+      const std::optional<std::size_t> below = compared_with(effect, all, k);
+      if (!below) continue;
+      Comparison one{effect, k, *below};
+      one.reason = bonds.against(needed_for(effect));
+      for (std::size_t seed = 0; one.reason.empty() && seed < plan.seeds.size(); ++seed)
+        one.ratio.add(strengths[k][seed] / strengths[*below][seed]);
+      if (all[k].pressure == 0 && (all[k].has_free_ends() || all[k].has_steel()))
+        one.laboratory = laboratory_figure(effect, all[k].has_free_ends(), all[k].slenderness);
+      comparisons.push_back(std::move(one));
+    }
+  return comparisons;
 }
 
 void to_json(Json &json, const LaboratoryFigure &figure) {
@@ -218,46 +194,41 @@ void to_json(Json &json, const LaboratoryFigure &figure) {
 
 Json json_of(const StudyPlan &plan, const std::vector<Comparison> &comparisons) {
   Json all = Json::array();
-  const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
   for (const Comparison &c : comparisons) {
-    Json one{{"effect", word(c.effect)},
-             {"case", plan.cases[c.of].name},
-             {"over", plan.cases[c.over].name},
-             {"mean", number(c.ratio.mean())},
-             {"deviation", number(c.ratio.deviation())},
-             {"low", number(c.ratio.least())},
-             {"high", number(c.ratio.largest())},
-             {"runs", c.ratio.count()}};
+    Json one{{"effect", word(c.effect)}, {"case", plan.cases[c.of].name}, {"over", plan.cases[c.over].name}};
+    one.update(json_of(c.ratio));
     one["laboratory"] = c.laboratory == nullptr ? Json() : Json(*c.laboratory);
-    if (*verdict(c) != '\0') one["verdict"] = verdict(c);
+    if (*c.verdict() != '\0') one["verdict"] = c.verdict();
     if (!c.reason.empty()) one["reason"] = c.reason;
     all.push_back(std::move(one));
   }
   return all;
 }
 
+void write_comparisons(const std::filesystem::path &csv, const Json &comparisons) {
+  write_table(csv,
+              {"effect", "case", "over", "mean", "deviation", "runs", "laboratory/mean", "laboratory/low",
+               "laboratory/high", "verdict", "laboratory/source", "reason"},
+              comparisons);
+}
+
 std::string text_of(const StudyPlan &plan, const std::vector<Comparison> &comparisons) {
-  const auto specimen = [&](std::size_t k) {
-    const double pressure = label(plan, k, "confining_pressure_pa");
-    return fmt::format("{} {:.3g}", plan.cases[k].surface, label(plan, k, "slenderness")) +
-           (pressure > 0 ? fmt::format(" {:.3g} MPa", 1e-6 * pressure) : "");
-  };
+  const std::vector<Pressed> all = pressed_of(plan);
   std::size_t widths[2] = {0, 0};
   for (const Comparison &c : comparisons) {
-    widths[0] = std::max(widths[0], specimen(c.of).size());
-    widths[1] = std::max(widths[1], specimen(c.over).size());
+    widths[0] = std::max(widths[0], all[c.of].text().size());
+    widths[1] = std::max(widths[1], all[c.over].text().size());
   }
   std::string text;
   for (const Comparison &c : comparisons) {
-    text += fmt::format("  {:<35}  {:<{}} / {:<{}}  ", word(c.effect), specimen(c.of), widths[0],
-                        specimen(c.over), widths[1]);
-    const char *beside = c.outside() ? "outside the laboratory's" : "laboratory";
+    text += fmt::format("  {:<35}  {:<{}} / {:<{}}  ", word(c.effect), all[c.of].text(), widths[0],
+                        all[c.over].text(), widths[1]);
     if (!c.reason.empty())
       text += "none: " + c.reason + '\n';
     else if (c.laboratory == nullptr)
       text += text_of(c.ratio, 1) + '\n';
     else
-      text += fmt::format("{:<26}  {} {}\n", text_of(c.ratio, 1), beside, words(*c.laboratory));
+      text += fmt::format("{:<26}  {}\n", text_of(c.ratio, 1), laboratory_text(c));
   }
   return text;
 }

@@ -26,7 +26,6 @@ struct LaboratoryFigure {
   double slenderness;     // height over width; of the cube where cube over prism
   double mean, low, high; // 1; the range of what was measured, else the source says what it is
   std::string source;     // author, year; of figures that were read, no others
-  bool holds(double ratio) const { return low <= ratio && ratio <= high; }
 };
 
 const std::vector<LaboratoryFigure> &laboratory_figures();
@@ -37,12 +36,14 @@ const LaboratoryFigure *laboratory_figure(PlatenEffect effect, bool free_ends, d
 struct Comparison {
   PlatenEffect effect;
   std::size_t of = 0, over = 0; // StudyPlan::cases
-  SeedStatistics ratio;
+  SeedStatistics ratio = {};
   const LaboratoryFigure *laboratory = nullptr; // null: none is known
   std::string reason = {};                      // why there is no ratio; "" where the bonds may have one
-  // Whether the mean lies outside what laboratories measured; not where either is missing.
-  bool outside() const {
-    return laboratory != nullptr && ratio.count() > 0 && !laboratory->holds(ratio.mean());
+
+  // The mean against what laboratories measured, "within" or "outside"; "" where either is missing.
+  const char *verdict() const {
+    if (laboratory == nullptr || ratio.count() == 0) return "";
+    return laboratory->low <= ratio.mean() && ratio.mean() <= laboratory->high ? "within" : "outside";
   }
 };
 
@@ -52,13 +53,11 @@ struct Comparison {
 std::vector<Comparison> compare(const StudyPlan &plan, const std::vector<std::vector<double>> &strengths,
                                 const CalibratedFor &bonds = {});
 
-// comparisons.csv, a row each. Throws OutputError.
-void write_comparisons(const std::filesystem::path &csv, const StudyPlan &plan,
-                       const std::vector<Comparison> &comparisons);
-
 // For study.json; repeats to the byte.
 void to_json(Json &json, const LaboratoryFigure &figure);
 Json json_of(const StudyPlan &plan, const std::vector<Comparison> &comparisons);
+// The same as comparisons.csv, a row each. Throws OutputError.
+void write_comparisons(const std::filesystem::path &csv, const Json &comparisons);
 // For the screen; "" of nothing.
 std::string text_of(const StudyPlan &plan, const std::vector<Comparison> &comparisons);
 

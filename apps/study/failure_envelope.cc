@@ -7,8 +7,8 @@
 #include <map>
 #include <utility>
 
-#include "apps/output/csv_writer.h"
 #include "apps/output/seed_statistics.h"
+#include "apps/study/tables.h"
 #include "base/pi.h"
 
 namespace platen::apps {
@@ -100,11 +100,6 @@ void say_missing(std::size_t runs, FailureLine &line) {
     add_reason(line, fmt::format("{} of {} runs have no strength", runs - line.runs, runs));
 }
 
-std::size_t place_of_pressure(const StudyPlan &plan) {
-  return static_cast<std::size_t>(std::find(plan.varied.begin(), plan.varied.end(), pressure_column) -
-                                  plan.varied.begin());
-}
-
 FailureEnvelope envelope_of(const StudyPlan &plan, const std::vector<std::size_t> &cases,
                             const std::vector<std::vector<double>> &strengths) {
   const std::string &name = plan.cases[cases.front()].envelope;
@@ -114,7 +109,7 @@ FailureEnvelope envelope_of(const StudyPlan &plan, const std::vector<std::size_t
     std::vector<FailurePoint> points;
     for (const std::size_t c : cases)
       if (!std::isnan(strengths[c][seed]))
-        points.push_back({plan.cases[c].labels[place_of_pressure(plan)], strengths[c][seed]});
+        points.push_back({plan.cases[c].labels[plan.place_of(pressure_column)], strengths[c][seed]});
     all.insert(all.end(), points.begin(), points.end());
     envelope.packings.push_back(fit_failure_line(points));
     say_missing(cases.size(), envelope.packings.back());
@@ -158,17 +153,14 @@ FailureLine fit_failure_line(const std::vector<FailurePoint> &points) {
 
 std::vector<FailureEnvelope> failure_envelopes(const StudyPlan &plan,
                                                const std::vector<std::vector<double>> &strengths) {
-  const std::size_t place = place_of_pressure(plan);
+  const std::size_t place = plan.place_of(pressure_column);
   if (place == plan.varied.size()) return {};
   std::vector<std::vector<std::size_t>> groups;
+  std::map<std::string, std::size_t> group_of; // by name
   for (std::size_t c = 0; c < plan.cases.size(); ++c) {
-    const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto &cases) {
-      return plan.cases[cases.front()].envelope == plan.cases[c].envelope;
-    });
-    if (group == groups.end())
-      groups.push_back({c});
-    else
-      group->push_back(c);
+    const auto [group, is_new] = group_of.emplace(plan.cases[c].envelope, groups.size());
+    if (is_new) groups.emplace_back();
+    groups[group->second].push_back(c);
   }
   std::vector<FailureEnvelope> envelopes;
   for (const auto &cases : groups)
@@ -177,33 +169,6 @@ std::vector<FailureEnvelope> failure_envelopes(const StudyPlan &plan,
         }))
       envelopes.push_back(envelope_of(plan, cases, strengths));
   return envelopes;
-}
-
-void write_envelopes(const std::filesystem::path &csv, const StudyPlan &plan,
-                     const std::vector<FailureEnvelope> &envelopes) {
-  const std::size_t place = place_of_pressure(plan);
-  std::vector<std::string> columns{"name"};
-  if (of_platens(plan.kind)) columns.emplace_back("surface");
-  for (const std::string &column : plan.varied)
-    if (column != pressure_column) columns.push_back(column);
-  columns.emplace_back("runs");
-  for (const auto &[key, member] : numbers)
-    columns.emplace_back(key);
-  columns.emplace_back("reason");
-  WholeTable rows(csv, columns);
-  for (const FailureEnvelope &envelope : envelopes) {
-    const StudyCase &first = plan.cases[envelope.cases.front()];
-    std::vector<CsvCell> cells{envelope.name};
-    if (of_platens(plan.kind)) cells.emplace_back(first.surface);
-    for (std::size_t k = 0; k < plan.varied.size(); ++k)
-      if (k != place) cells.push_back(with_label(first, k, [](const auto &label) { return CsvCell(label); }));
-    cells.emplace_back(envelope.line.runs);
-    for (const auto &[key, member] : numbers)
-      cells.emplace_back(envelope.line.*member);
-    cells.emplace_back(envelope.line.reason);
-    rows.row(cells);
-  }
-  rows.finish();
 }
 
 Json json_of(const StudyPlan &plan, const std::vector<FailureEnvelope> &envelopes) {
@@ -221,8 +186,7 @@ Json json_of(const StudyPlan &plan, const std::vector<FailureEnvelope> &envelope
       one["cases"].push_back(plan.cases[c].name);
     if (of_platens(plan.kind)) one["surface"] = first.surface;
     for (std::size_t k = 0; k < plan.varied.size(); ++k)
-      if (plan.varied[k] != pressure_column)
-        one[plan.varied[k]] = with_label(first, k, [](const auto &label) { return Json(label); });
+      if (plan.varied[k] != pressure_column) one[plan.varied[k]] = first.label(k);
     add(envelope.line, one);
     for (std::size_t seed = 0; seed < envelope.packings.size(); ++seed) {
       one["packings"].push_back({{"seed", plan.seeds[seed]}});
@@ -231,6 +195,18 @@ Json json_of(const StudyPlan &plan, const std::vector<FailureEnvelope> &envelope
     all.push_back(std::move(one));
   }
   return all;
+}
+
+void write_envelopes(const std::filesystem::path &csv, const StudyPlan &plan, const Json &envelopes) {
+  std::vector<std::string> keys{"name"};
+  if (of_platens(plan.kind)) keys.emplace_back("surface");
+  for (const std::string &column : plan.varied)
+    if (column != pressure_column) keys.push_back(column);
+  keys.emplace_back("runs");
+  for (const auto &[key, member] : numbers)
+    keys.emplace_back(key);
+  keys.emplace_back("reason");
+  write_table(csv, keys, envelopes);
 }
 
 std::string text_of(const std::vector<FailureEnvelope> &envelopes) {

@@ -46,11 +46,10 @@ struct FailureEnvelope {
 std::vector<FailureEnvelope> failure_envelopes(const StudyPlan &plan,
                                                const std::vector<std::vector<double>> &strengths);
 
-// envelope.csv, a row each. Throws OutputError.
-void write_envelopes(const std::filesystem::path &csv, const StudyPlan &plan,
-                     const std::vector<FailureEnvelope> &envelopes);
 // For study.json; repeats to the byte.
 Json json_of(const StudyPlan &plan, const std::vector<FailureEnvelope> &envelopes);
+// The same as envelope.csv, a row each. Throws OutputError.
+void write_envelopes(const std::filesystem::path &csv, const StudyPlan &plan, const Json &envelopes);
 // For the screen; "" of nothing.
 std::string text_of(const std::vector<FailureEnvelope> &envelopes);
 

@@ -9,23 +9,15 @@ set(PLATEN_STUDY_SOURCES
   study/planned_runs.cc
   study/platen_cases.cc
   study/run_study.cc
-  study/runs.cc
   study/study_results.cc
+  study/study_setup.cc
   study/tables.cc
-  study/target_app.cc
   study/target_cases.cc
   study/target_figures.cc
-  study/target_json.cc
-  study/target_prior.cc
   study/target_report.cc
-  study/target_results.cc
   study/target_study.cc)
 
 # What runs tell of a figure and which runs are the cheapest: statistics alone.
 set(PLATEN_TARGET_STATISTICS_SOURCES
-  study/target_decision.cc
   study/target_model.cc
-  study/target_one_speed.cc
-  study/target_plan.cc
-  study/target_runs.cc
-  study/target_spread.cc)
+  study/target_plan.cc)

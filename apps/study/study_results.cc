@@ -8,25 +8,29 @@
 #include "apps/run/app_output.h"
 #include "apps/run/problem_setup.h"
 #include "apps/scene/expect.h"
-#include "apps/scene/values.h"
+#include "apps/study/accuracy.h"
 #include "apps/study/comparisons.h"
 #include "apps/study/failure_envelope.h"
 
 namespace platen::apps {
-
 namespace {
 
-Json named(const std::string &run, const Json &expectations) {
+// What the scene expects of a run, as its summary would have it (apps/scene/expect.h), each with the name of
+// the `run`.
+Json expectations_of(const StudySetup &study, const TestRun &run, const RunOutcome &outcome) {
   Json list = Json::array();
-  for (const Json &one : expectations) {
-    list.push_back({{"run", run}});
+  if (!study.plan.cases[run.of].is_expected) return list;
+  const Json checked = outcome.done
+                           ? check_expectations(study.scene, outcome.summary)
+                           : unchecked_expectations(study.scene, std::string("the run is ") + word(outcome));
+  for (const Json &one : checked) {
+    list.push_back({{"run", run.name}});
     list.back().update(one);
   }
   return list;
 }
 
-} // namespace
-
+// "NAME: why" of each of them that is not met.
 std::vector<std::string> missed_in(const Json &expectations) {
   std::vector<std::string> missed;
   for (const Json &one : expectations)
@@ -35,113 +39,96 @@ std::vector<std::string> missed_in(const Json &expectations) {
   return missed;
 }
 
-Json tell_outcome(const Scene &scene, StudyKind kind, const std::string &head, const TestRun &run,
+} // namespace
+
+bool tell_outcome(const StudySetup &study, const std::string &head, const TestRun &run,
                   const RunOutcome &outcome, RunLog &log) {
   if (!outcome.done) {
     log.warning("{}: {}, {}", head, word(outcome), outcome.reason);
-    return named(run.name, unchecked_expectations(scene, std::string("the run is ") + word(outcome)));
+    return true;
   }
   const double strength = number_in(outcome.summary, "strength_pa");
   log.info("{}: {}, {:.0f} s{}", head,
            std::isnan(strength) ? "no strength" : fmt::format("{:.4g} MPa", 1e-6 * strength),
            number_in(outcome.summary, "wall_seconds"), outcome.kept ? ", kept" : "");
+  const StudyKind kind = study.plan.kind;
   const bool compared = of_platens(kind) || kind == StudyKind::accuracy || kind == StudyKind::target;
-  if (compared && !StudyTables::peaked(outcome.summary))
+  if (compared && !has_peaked(outcome.summary))
     log.warning("{}: it reached no peak up to Loading/Target strain: it has no strength to compare",
                 run.name);
-  Json expectations = named(run.name, check_expectations(scene, outcome.summary));
-  for (const std::string &line : missed_in(expectations))
+  const std::vector<std::string> missed = missed_in(expectations_of(study, run, outcome));
+  for (const std::string &line : missed)
     log.error("expected: {}", line);
-  return expectations;
+  return missed.empty();
 }
 
-StudyResults::StudyResults(const Scene &scene, const StudyPlan &plan, const std::vector<TestRun> &runs,
-                           const OutputPaths &paths, RunLog &log)
-    : scene_(scene),
-      plan_(plan),
-      runs_(runs),
-      paths_(paths),
-      log_(log),
-      tables_(plan, paths),
-      accuracy_(plan),
-      expectations_(runs.size()) {}
-
-void StudyResults::tell(std::size_t k, const RunOutcome &outcome, std::size_t ended) {
-  const std::string head = fmt::format("  {} of {}  {}", ended, runs_.size(), runs_[k].name);
-  expectations_[k] = tell_outcome(scene_, plan_.kind, head, runs_[k], outcome, log_);
+void StudyResults::keep(const TestRun &run, const RunOutcome &outcome) {
+  tables.add(run, outcome);
+  for (const Json &one : expectations_of(study_, run, outcome))
+    expectations_.push_back(one);
 }
 
-void StudyResults::keep(std::size_t k, const RunOutcome &outcome) {
-  tables_.add(runs_[k], outcome);
-  accuracy_.add(runs_[k], outcome);
-}
-
-std::string StudyResults::compare(Json &study) const {
-  std::string text;
-  const std::vector<std::vector<double>> strengths = tables_.strengths();
-  if (of_platens(plan_.kind)) {
-    const std::vector<Comparison> comparisons = apps::compare(plan_, strengths, scene_.bond.calibrated);
-    write_comparisons(paths_.comparisons(), plan_, comparisons);
-    study["comparisons"] = json_of(plan_, comparisons);
-    study["laboratory"] = laboratory_figures();
-    text = text_of(plan_, comparisons);
-  }
-  if (const auto envelopes = failure_envelopes(plan_, strengths); !envelopes.empty()) {
-    write_envelopes(paths_.envelope(), plan_, envelopes);
-    study["envelopes"] = json_of(plan_, envelopes);
-    text += text_of(envelopes);
-  }
-  if (plan_.kind != StudyKind::accuracy) return text;
-  accuracy_.write_rows(paths_.accuracy());
-  const std::vector<ParameterErrors> errors = accuracy_.errors();
-  study["accuracy"] = json_of(plan_, errors);
-  study["costs"] = costs_of(plan_, errors);
-  return text_of(plan_, errors);
-}
-
-std::string StudyResults::status() const {
-  if (tables_.missing() > 0) return "stopped";
-  return tables_.failed() < static_cast<int>(runs_.size()) ? "done" : "failed";
-}
-
-Json StudyResults::study_json() const {
-  Json study;
-  study["kind"] = word(plan_.kind);
-  study["status"] = status();
-  study["varied"] = plan_.varied;
-  study["seeds"] = plan_.seeds;
-  study["runs"] = runs_.size();
-  study["failed_runs"] = tables_.failed();
-  if (tables_.missing() > 0) study["missing_runs"] = tables_.missing();
-  study["cases"] = tables_.cases();
-  return study;
-}
-
-int StudyResults::finish(const Json &costs) {
-  Json study = study_json();
-  const std::string compared = compare(study);
-  write_summary(paths_.study_json(), study);
-  Json s = summary_head(scene_, "platen-study", study["status"], effects_on(scene_));
+int StudyResults::write(const std::string &status, const std::vector<unsigned long> &seeds,
+                        const Analysis &analysis, const Json &costs) const {
+  const std::size_t failed = tables.count("failed"), missing = tables.count("missing"),
+                    all = tables.count("done") + failed + missing;
+  Json study{{"kind", word(study_.plan.kind)}, {"status", status}};
+  study["varied"] = study_.plan.varied;
+  study["seeds"] = seeds;
+  study["runs"] = all;
+  study["failed_runs"] = failed;
+  if (missing > 0) study["missing_runs"] = missing;
+  study["cases"] = tables.cases();
+  const std::string told = analysis(study);
+  write_summary(study_.paths.study_json(), study);
+  Json s = summary_head(study_.scene, "platen-study", status, effects_on(study_.scene));
   s.update(study);
-  s["expectations"] = Json::array();
-  for (const Json &of_run : expectations_)
-    for (const Json &one : of_run)
-      s["expectations"].push_back(one);
-  const std::vector<std::string> missed = missed_in(s["expectations"]);
+  s["expectations"] = expectations_;
+  const std::vector<std::string> missed = missed_in(expectations_);
   s["missed"] = missed;
   s.update(costs);
-  s["scene_sha256"] = sha256_of_file(paths_.scene()).value_or("");
-  s["inputs_sha256"] = input_sums(scene_);
-  write_summary(paths_.summary(), s);
-  log_.info("{}{}", tables_.text(), compared);
-  if (tables_.failed() > 0) log_.warning("{} of {} runs failed", tables_.failed(), runs_.size());
-  log_.info("results are in {}", paths_.folder.string());
-  if (tables_.missing() > 0) return status_numerics;
-  if (status() == "failed") {
-    log_.error("no run came to its end");
-    return status_numerics;
-  }
+  s["scene_sha256"] = sha256_of_file(study_.paths.scene()).value_or("");
+  s["inputs_sha256"] = input_sums(study_.scene);
+  write_summary(study_.paths.summary(), s);
+  log_.info("{}{}", tables.text(), told);
+  if (failed > 0) log_.warning("{} of {} runs failed", failed, all);
+  log_.info("results are in {}", study_.paths.folder.string());
   return missed.empty() ? status_done : status_check_failed;
+}
+
+std::string StudyResults::analyse(Json &study) const {
+  const StudyPlan &plan = study_.plan;
+  std::string text;
+  const std::vector<std::vector<double>> strengths = strengths_of(tables.outcomes());
+  if (of_platens(plan.kind)) {
+    const std::vector<Comparison> comparisons = compare(plan, strengths, study_.scene.bond.calibrated);
+    study["comparisons"] = json_of(plan, comparisons);
+    study["laboratory"] = laboratory_figures();
+    write_comparisons(study_.paths.comparisons(), study["comparisons"]);
+    text = text_of(plan, comparisons);
+  }
+  if (const auto envelopes = failure_envelopes(plan, strengths); !envelopes.empty()) {
+    study["envelopes"] = json_of(plan, envelopes);
+    write_envelopes(study_.paths.envelope(), plan, study["envelopes"]);
+    text += text_of(envelopes);
+  }
+  if (plan.kind != StudyKind::accuracy) return text;
+  write_errors(study_.paths.accuracy(), plan, tables.outcomes());
+  const std::vector<ParameterErrors> errors = errors_of(plan, tables.outcomes());
+  study["accuracy"] = json_of(plan, errors);
+  study["costs"] = costs_of(plan, errors);
+  return text_of(plan, errors);
+}
+
+int StudyResults::finish(const Json &costs) const {
+  const bool missing = tables.count("missing") > 0, failed = tables.count("failed") == study_.runs.size();
+  const int status = write(
+      missing  ? "stopped"
+      : failed ? "failed"
+               : "done",
+      study_.plan.seeds, [&](Json &study) { return analyse(study); }, costs);
+  if (failed) log_.error("no run came to its end");
+  return missing || failed ? status_numerics : status;
 }
 
 } // namespace platen::apps

@@ -1,52 +1,48 @@
 // What a study leaves when its runs are there: tables, study.json, summary.json, words on the screen.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "apps/many/runs.h"
-#include "apps/output/output_folder.h"
 #include "apps/output/run_log.h"
-#include "apps/study/accuracy.h"
-#include "apps/study/cases.h"
+#include "apps/study/study_setup.h"
 #include "apps/study/tables.h"
 
 namespace platen::apps {
 
-// Says what came of a run, after `head`, and which numbers that the scene expects it missed. Returns what the
-// scene expects of it, as its summary would have it (apps/scene/expect.h), each with the name of the `run`.
-Json tell_outcome(const Scene &scene, StudyKind kind, const std::string &head, const TestRun &run,
+// Says what came of a run, after `head`, and which numbers that the scene expects it missed. Returns whether
+// it missed none.
+bool tell_outcome(const StudySetup &study, const std::string &head, const TestRun &run,
                   const RunOutcome &outcome, RunLog &log);
-// "NAME: why" of each of them that is not met.
-std::vector<std::string> missed_in(const Json &expectations);
+
+// What the runs of a kind of study tell together: added to study.json; words for the screen.
+using Analysis = std::function<std::string(Json &study)>;
 
 class StudyResults {
 public:
-  // Begins the tables anew. All but the scene's text has to outlive this.
-  StudyResults(const Scene &scene, const StudyPlan &plan, const std::vector<TestRun> &runs,
-               const OutputPaths &paths, RunLog &log);
+  // Begins the tables anew.
+  StudyResults(const StudySetup &study, RunLog &log)
+      : tables(study.plan, study.paths), study_(study), log_(log) {}
 
-  // Of run k when it has ended, the how manieth of all.
-  void tell(std::size_t k, const RunOutcome &outcome, std::size_t ended);
-  // Of run k, in their order.
-  void keep(std::size_t k, const RunOutcome &outcome);
-  // Once all are there. `costs` are the keys of summary.json on what the study took. Returns the exit status.
-  int finish(const Json &costs);
+  // Of each run, in their order.
+  void keep(const TestRun &run, const RunOutcome &outcome);
+  // Once all are there: study.json and summary.json, and what is told of the whole. `costs` are the keys of
+  // summary.json on what the study took. Returns the exit status: whether the scene's expectations were met.
+  int write(const std::string &status, const std::vector<unsigned long> &seeds, const Analysis &analysis,
+            const Json &costs) const;
+  // The same of a study whose runs were all planned: with the analyses of its kind, and 3 where runs are
+  // missing or none has come to its end.
+  int finish(const Json &costs) const;
+
+  StudyTables tables;
 
 private:
-  // What the kind of study alone leaves: added to study.json, told.
-  std::string compare(Json &study) const;
-  Json study_json() const;
-  std::string status() const;
+  std::string analyse(Json &study) const;
 
-  const Scene &scene_;
-  const StudyPlan &plan_;
-  const std::vector<TestRun> &runs_;
-  const OutputPaths &paths_;
+  const StudySetup &study_;
   RunLog &log_;
-  StudyTables tables_;
-  Accuracy accuracy_;
-  std::vector<Json> expectations_; // by run
+  Json expectations_ = Json::array();
 };
 
 } // namespace platen::apps

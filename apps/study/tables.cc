@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "apps/output/numbers.h"
+#include "apps/scene/values.h"
 
 namespace platen::apps {
 namespace {
@@ -24,6 +26,7 @@ const std::vector<std::string> figures = cells_of(
 // And those that do.
 const std::vector<std::string> costs{"steps", "wall_seconds", "setup_seconds", "particle_steps_per_second",
                                      "peak_memory_bytes"};
+constexpr const char *pattern = "pattern"; // how the specimen failed, a word
 
 std::vector<std::string> columns_of(const StudyPlan &plan, const std::vector<std::string> &numbers) {
   std::vector<std::string> columns{"kind", "case"};
@@ -31,14 +34,82 @@ std::vector<std::string> columns_of(const StudyPlan &plan, const std::vector<std
   columns.insert(columns.end(), plan.varied.begin(), plan.varied.end());
   columns.insert(columns.end(), {"seed", "status"});
   columns.insert(columns.end(), numbers.begin(), numbers.end());
-  if (&numbers == &figures) columns.emplace_back("pattern");
+  if (&numbers == &figures) columns.emplace_back(pattern);
   return columns;
 }
 
-// How the specimen failed; empty where it was not told.
-std::string pattern_in(const Json &summary) {
-  const auto found = summary.find("pattern");
-  return found != summary.end() && found->is_string() ? found->get<std::string>() : "";
+CsvCell cell_of(const Json &value) {
+  if (value.is_string()) return value.get_ref<const std::string &>();
+  if (value.is_number_integer()) return value.get<long long>();
+  return value.is_number() ? value.get<double>() : not_given;
+}
+
+// Runs of this word: "done", "failed", "missing".
+std::size_t count_of(const std::vector<RunOutcome> &runs, const std::string &status) {
+  return static_cast<std::size_t>(
+      std::count_if(runs.begin(), runs.end(), [&](const RunOutcome &one) { return word(one) == status; }));
+}
+
+SeedStatistics statistics_of(const std::vector<RunOutcome> &runs, const std::string &key) {
+  SeedStatistics statistics;
+  for (const RunOutcome &one : runs)
+    statistics.add(number_in(one.summary, key));
+  return statistics;
+}
+
+// With how many runs have the figure, where not all have.
+std::string text_of_figure(const std::vector<RunOutcome> &runs, const std::string &key, double unit) {
+  const SeedStatistics s = statistics_of(runs, key);
+  return s.count() == count_of(runs, "done") ? short_text_of(s, unit) : text_of(s, unit);
+}
+
+// How a figure is shown.
+struct Shown {
+  const char *key, *head;
+  double unit;
+};
+constexpr Shown shown_figures[] = {{"particles", "spheres", 1},
+                                   {"packing_fraction", "packing", 1},
+                                   {"coordination_number", "neighbours", 1},
+                                   {"strength_pa", "strength, MPa", 1e6},
+                                   {"strain_at_peak_platen", "strain, 1e-3", 1e-3},
+                                   {"youngs_modulus_gauge_pa", "E, GPa", 1e9},
+                                   {"poisson_ratio", "nu", 1},
+                                   {"kinetic_to_internal_max", "kinetic", 1},
+                                   {"wall_seconds", "seconds", 1}};
+
+// Columns that any case has, by their place in it; where cases have names, those that differ.
+std::vector<std::size_t> labels_of(const StudyPlan &plan, bool named) {
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < plan.varied.size(); ++k) {
+    const auto any = [&](const auto &holds) {
+      return std::any_of(plan.cases.begin(), plan.cases.end(),
+                         [&](const StudyCase &of) { return holds(of.labels[k]); });
+    };
+    const CaseColumn *column = case_column(plan.varied[k]);
+    const double first = plan.cases.front().labels[k];
+    if (column != nullptr && column->head != nullptr &&
+        any([](double value) { return !std::isnan(value); }) &&
+        (!named || any([&](double value) { return value != first; })))
+      places.push_back(k);
+  }
+  return places;
+}
+
+} // namespace
+
+bool has_peaked(const Json &summary) {
+  return summary.is_object() && summary.value("peak_reached", Json()) == true;
+}
+
+std::vector<std::vector<double>> strengths_of(const Outcomes &outcomes) {
+  std::vector<std::vector<double>> all;
+  for (const std::vector<RunOutcome> &runs : outcomes) {
+    all.emplace_back();
+    for (const RunOutcome &one : runs)
+      all.back().push_back(has_peaked(one.summary) ? number_in(one.summary, "strength_pa") : not_given);
+  }
+  return all;
 }
 
 Json json_of(const SeedStatistics &s) {
@@ -48,61 +119,6 @@ Json json_of(const SeedStatistics &s) {
           {"high", s.largest()},
           {"runs", s.count()}};
 }
-
-// With how many runs have the figure, where not all have.
-std::string text_of_row(const SeedStatistics &s, double unit, int runs) {
-  return s.count() == static_cast<std::size_t>(runs) ? short_text_of(s, unit) : text_of(s, unit);
-}
-
-// How a column is shown.
-struct Shown {
-  const char *column, *head;
-  double unit;
-};
-constexpr Shown varied[] = {{"friction_static", "friction", 1},
-                            {"slenderness", "height/width", 1},
-                            {"confining_pressure_pa", "cell, MPa", 1e6},
-                            {"sphere_radius_m", "sphere, mm", 1e-3},
-                            {"height_m", "height, mm", 1e-3},
-                            {"radius_m", "radius, mm", 1e-3},
-                            {"gap_over_radius", "gap/R", 1},
-                            {"gap_m", "gap, mm", 1e-3},
-                            {"radius_multiplier", "multiplier", 1},
-                            {"radius_spread", "spread", 1},
-                            {"axial_rate_m_s", "rate, m/s", 1}};
-constexpr Shown measured[] = {{"particles", "spheres", 1},
-                              {"packing_fraction", "packing", 1},
-                              {"coordination_number", "neighbours", 1},
-                              {"strength_pa", "strength, MPa", 1e6},
-                              {"strain_at_peak_platen", "strain, 1e-3", 1e-3},
-                              {"youngs_modulus_gauge_pa", "E, GPa", 1e9},
-                              {"poisson_ratio", "nu", 1},
-                              {"kinetic_to_internal_max", "kinetic", 1}};
-
-struct Label {
-  const Shown *shown;
-  std::size_t place; // in the case
-};
-
-// Those that any case has; where cases have names, those that differ.
-std::vector<Label> labels_of(const StudyPlan &plan, bool named) {
-  std::vector<Label> labels;
-  for (std::size_t k = 0; k < plan.varied.size(); ++k) {
-    const auto any = [&](const auto &holds) {
-      return std::any_of(plan.cases.begin(), plan.cases.end(),
-                         [&](const StudyCase &of) { return holds(of.labels[k]); });
-    };
-    const auto *found = std::find_if(std::begin(varied), std::end(varied),
-                                     [&](const Shown &one) { return plan.varied[k] == one.column; });
-    const double first = plan.cases.front().labels[k];
-    if (found != std::end(varied) && any([](double value) { return !std::isnan(value); }) &&
-        (!named || any([&](double value) { return value != first; })))
-      labels.push_back({found, k});
-  }
-  return labels;
-}
-
-} // namespace
 
 std::string aligned(const std::vector<std::vector<std::string>> &rows) {
   std::vector<std::size_t> widths(rows.front().size(), 0);
@@ -118,118 +134,119 @@ std::string aligned(const std::vector<std::vector<std::string>> &rows) {
   return text;
 }
 
+void write_row(CsvWriter &table, const Json &cells) {
+  std::vector<CsvCell> row;
+  for (const Json &one : cells)
+    row.push_back(cell_of(one));
+  table.row(row);
+}
+
+void write_table(const std::filesystem::path &csv, const std::vector<std::string> &keys,
+                 const Json &objects) {
+  std::vector<std::string> columns = keys;
+  for (std::string &column : columns)
+    std::replace(column.begin(), column.end(), '/', '_');
+  WholeTable table(csv, columns);
+  for (const Json &object : objects) {
+    Json cells = Json::array();
+    for (const std::string &key : keys) {
+      const Json::json_pointer member("/" + key);
+      cells.push_back(object.contains(member) ? object[member] : Json());
+    }
+    write_row(table, cells);
+  }
+  table.finish();
+}
+
 StudyTables::StudyTables(const StudyPlan &plan, const OutputPaths &paths)
     : plan_(plan),
       study_(paths.study(), columns_of(plan, figures)),
       costs_(paths.costs(), columns_of(plan, costs)),
-      cases_(plan.cases.size()) {
-  for (OfCase &of : cases_) // those without a run too
-    for (const auto &keys : {figures, costs})
-      for (const std::string &key : keys)
-        of.figures[key];
-}
+      outcomes_(plan.cases.size()) {}
 
 void StudyTables::add(const TestRun &run, const RunOutcome &outcome) {
   const StudyCase &of = plan_.cases[run.of];
-  OfCase &sums = cases_[run.of];
-  std::vector<CsvCell> cells{word(plan_.kind), of.name};
-  if (of_platens(plan_.kind)) cells.emplace_back(of.surface);
+  Json cells{word(plan_.kind), of.name};
+  if (of_platens(plan_.kind)) cells.push_back(of.surface);
   for (std::size_t k = 0; k < of.labels.size(); ++k)
-    cells.push_back(with_label(of, k, [](const auto &label) { return CsvCell(label); }));
-  cells.insert(cells.end(), {run.seed, word(outcome)});
-  std::vector<CsvCell> cost_cells = cells;
-  for (const std::string &key : figures) {
-    const double value = number_in(outcome.summary, key);
-    cells.emplace_back(value);
-    sums.figures[key].add(value);
-  }
-  const std::string pattern = pattern_in(outcome.summary);
-  cells.emplace_back(pattern);
-  if (!pattern.empty()) ++sums.patterns[pattern];
-  for (const std::string &key : costs) {
-    const double value = number_in(outcome.summary, key);
-    cost_cells.emplace_back(value);
-    sums.figures[key].add(value);
-  }
-  study_.row(cells);
-  costs_.row(cost_cells);
-  sums.strengths.push_back(peaked(outcome.summary) ? number_in(outcome.summary, "strength_pa") : not_given);
-  if (outcome.done && !peaked(outcome.summary)) ++sums.without_peak;
-  ++sums.runs;
-  if (!outcome.done) ++(outcome.missing ? sums.missing : sums.failed);
+    cells.push_back(of.label(k));
+  cells.push_back(run.seed);
+  cells.push_back(word(outcome));
+  Json cost_cells = cells;
+  for (const std::string &key : figures)
+    cells.push_back(number_in(outcome.summary, key));
+  cells.push_back(text_in(outcome.summary, pattern));
+  for (const std::string &key : costs)
+    cost_cells.push_back(number_in(outcome.summary, key));
+  write_row(study_, cells);
+  write_row(costs_, cost_cells);
+  outcomes_[run.of].push_back(outcome);
 }
 
-bool StudyTables::peaked(const Json &summary) {
-  return summary.is_object() && summary.value("peak_reached", Json()) == true;
-}
-
-int StudyTables::failed() const {
-  return std::accumulate(cases_.begin(), cases_.end(), 0,
-                         [](int sum, const OfCase &of) { return sum + of.failed; });
-}
-
-int StudyTables::missing() const {
-  return std::accumulate(cases_.begin(), cases_.end(), 0,
-                         [](int sum, const OfCase &of) { return sum + of.missing; });
+std::size_t StudyTables::count(const std::string &status) const {
+  return std::accumulate(
+      outcomes_.begin(), outcomes_.end(), std::size_t{0},
+      [&](std::size_t sum, const std::vector<RunOutcome> &runs) { return sum + count_of(runs, status); });
 }
 
 Json StudyTables::cases() const {
   Json all = Json::array();
-  for (std::size_t c = 0; c < cases_.size(); ++c) {
-    if (cases_[c].runs == 0) continue; // a speed that a target has not chosen
+  for (std::size_t c = 0; c < outcomes_.size(); ++c) {
+    const std::vector<RunOutcome> &runs = outcomes_[c];
+    if (runs.empty()) continue; // a speed that a target has not chosen
+    const StudyCase &of = plan_.cases[c];
     Json one;
-    one["name"] = plan_.cases[c].name;
-    if (of_platens(plan_.kind)) one["surface"] = plan_.cases[c].surface;
+    one["name"] = of.name;
+    if (of_platens(plan_.kind)) one["surface"] = of.surface;
     for (std::size_t k = 0; k < plan_.varied.size(); ++k)
-      one[plan_.varied[k]] = with_label(plan_.cases[c], k, [](const auto &label) { return Json(label); });
-    one["overrides"] = plan_.cases[c].overrides;
-    one["runs"] = cases_[c].runs;
-    one["failed"] = cases_[c].failed;
-    if (cases_[c].missing > 0) one["missing"] = cases_[c].missing;
-    if (of_platens(plan_.kind)) one["without_peak"] = cases_[c].without_peak;
+      one[plan_.varied[k]] = of.label(k);
+    one["overrides"] = of.overrides;
+    one["runs"] = runs.size();
+    one["failed"] = count_of(runs, "failed");
+    if (const std::size_t missing = count_of(runs, "missing"); missing > 0) one["missing"] = missing;
+    if (of_platens(plan_.kind))
+      one["without_peak"] = std::count_if(runs.begin(), runs.end(), [](const RunOutcome &outcome) {
+        return outcome.done && !has_peaked(outcome.summary);
+      });
     for (const std::string &key : figures)
-      one[key] = json_of(cases_[c].figures.at(key));
-    one["patterns"] = cases_[c].patterns;
+      one[key] = json_of(statistics_of(runs, key));
+    std::map<std::string, int> patterns; // runs that failed so
+    for (const RunOutcome &outcome : runs)
+      if (const std::string how = text_in(outcome.summary, pattern); !how.empty()) ++patterns[how];
+    one["patterns"] = patterns;
     all.push_back(std::move(one));
   }
   return all;
 }
 
-std::vector<std::vector<double>> StudyTables::strengths() const {
-  std::vector<std::vector<double>> all;
-  for (const OfCase &of : cases_)
-    all.push_back(of.strengths);
-  return all;
-}
-
 std::string StudyTables::text() const {
-  const bool accuracy = plan_.kind == StudyKind::accuracy || plan_.kind == StudyKind::target ||
-                        plan_.kind == StudyKind::vary,
-             named = of_platens(plan_.kind) || accuracy;
-  const std::vector<Label> labels = labels_of(plan_, named);
+  const bool by_surface = of_platens(plan_.kind), by_name = plan_.kind == StudyKind::accuracy ||
+                                                            plan_.kind == StudyKind::target ||
+                                                            plan_.kind == StudyKind::vary;
+  const std::vector<std::size_t> labels = labels_of(plan_, by_surface || by_name);
   std::vector<std::vector<std::string>> rows(1);
-  if (named) rows[0].emplace_back(accuracy ? "case" : "platens");
-  for (const Label &label : labels)
-    rows[0].emplace_back(label.shown->head);
+  if (by_surface || by_name) rows[0].emplace_back(by_name ? "case" : "platens");
+  for (const std::size_t k : labels)
+    rows[0].emplace_back(case_column(plan_.varied[k])->head);
   rows[0].emplace_back("runs");
-  for (const Shown &column : measured)
+  for (const Shown &column : shown_figures)
     rows[0].emplace_back(column.head);
-  rows[0].insert(rows[0].end(), {"seconds", "MB"});
-  for (std::size_t c = 0; c < cases_.size(); ++c) {
-    const OfCase &of = cases_[c];
-    if (of.runs == 0) continue;
+  rows[0].emplace_back("MB");
+  for (std::size_t c = 0; c < outcomes_.size(); ++c) {
+    const std::vector<RunOutcome> &runs = outcomes_[c];
+    const StudyCase &of = plan_.cases[c];
+    if (runs.empty()) continue;
     std::vector<std::string> row;
-    if (named) row.push_back(accuracy ? plan_.cases[c].name : plan_.cases[c].surface);
-    for (const Label &label : labels) {
-      const double value = plan_.cases[c].labels[label.place] / label.shown->unit;
-      row.push_back(std::isnan(value) ? "-" : fmt::format("{:.4g}", value));
-    }
-    const int absent = of.failed + of.missing;
-    row.push_back(absent == 0 ? std::to_string(of.runs) : fmt::format("{} of {}", of.runs - absent, of.runs));
-    for (const Shown &column : measured)
-      row.push_back(text_of_row(of.figures.at(column.column), column.unit, of.runs - absent));
-    row.push_back(text_of_row(of.figures.at("wall_seconds"), 1, of.runs - absent));
-    const SeedStatistics &bytes = of.figures.at("peak_memory_bytes");
+    if (by_surface || by_name) row.push_back(by_name ? of.name : of.surface);
+    for (const std::size_t k : labels)
+      row.push_back(std::isnan(of.labels[k])
+                        ? "-"
+                        : fmt::format("{:.4g}", of.labels[k] / case_column(plan_.varied[k])->unit));
+    const std::size_t done = count_of(runs, "done");
+    row.push_back(done == runs.size() ? std::to_string(done) : fmt::format("{} of {}", done, runs.size()));
+    for (const Shown &column : shown_figures)
+      row.push_back(text_of_figure(runs, column.key, column.unit));
+    const SeedStatistics bytes = statistics_of(runs, "peak_memory_bytes");
     row.push_back(bytes.count() > 0 ? fmt::format("{:.0f}", 1e-6 * bytes.mean()) : "-");
     rows.push_back(std::move(row));
   }

@@ -1,7 +1,7 @@
-// What a study leaves: a row for each run, means and scatter for each case.
+// What a study leaves in tables: a row for each run, means and scatter for each case.
 #pragma once
 
-#include <map>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -14,8 +14,26 @@
 
 namespace platen::apps {
 
+// Whether a run is known to have borne its most: its stress fell to 0.8 of the peak, where damage is
+// measured. Else it has no strength that could be compared.
+bool has_peaked(const Json &summary);
+
+// What came of runs, by case, then by seed.
+using Outcomes = std::vector<std::vector<RunOutcome>>;
+// Pa; NaN: failed, or without a peak.
+std::vector<std::vector<double>> strengths_of(const Outcomes &outcomes);
+
+// {"mean", "deviation", "low", "high", "runs"}
+Json json_of(const SeedStatistics &statistics);
+
 // Rows of words for the screen, columns as wide as what stands in them.
 std::string aligned(const std::vector<std::vector<std::string>> &rows);
+
+// A row of numbers and words; null and NaN are empty cells.
+void write_row(CsvWriter &table, const Json &cells);
+// A whole table of objects, by their keys: "mean", and "laboratory/mean" of a member of an object, whose
+// column is laboratory_mean. Throws OutputError.
+void write_table(const std::filesystem::path &csv, const std::vector<std::string> &keys, const Json &objects);
 
 class StudyTables {
 public:
@@ -25,28 +43,17 @@ public:
   // Rows of a run, in the order of the runs.
   void add(const TestRun &run, const RunOutcome &outcome);
 
-  int failed() const, missing() const; // runs
-  // Whether a run is known to have borne its most: its stress fell to 0.8 of the peak, where damage is
-  // measured. Else it has no strength that could be compared.
-  static bool peaked(const Json &summary);
-  // One object a case: labels, counts, {"mean", "deviation", "runs"} of each figure. Repeats to the byte.
+  const Outcomes &outcomes() const { return outcomes_; }
+  std::size_t count(const std::string &status) const; // runs that are "done", "failed", "missing"
+  // One object a case: labels, counts, statistics of each figure. Repeats to the byte.
   Json cases() const;
-  // Of all runs (Pa; NaN: failed, or without a peak), by case, then by seed; once all rows are there.
-  std::vector<std::vector<double>> strengths() const;
   // For the screen, with what a run of each case cost.
   std::string text() const;
 
 private:
-  struct OfCase {
-    int runs = 0, failed = 0, missing = 0, without_peak = 0;
-    std::map<std::string, SeedStatistics> figures; // by key of summary.json
-    std::vector<double> strengths;                 // by seed
-    std::map<std::string, int> patterns;           // runs that failed so
-  };
-
   const StudyPlan &plan_;
   CsvWriter study_, costs_;
-  std::vector<OfCase> cases_;
+  Outcomes outcomes_;
 };
 
 } // namespace platen::apps

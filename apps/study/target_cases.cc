@@ -6,7 +6,7 @@
 #include "apps/scene/parameters.h"
 #include "apps/study/cases.h"
 #include "apps/study/study_section.h"
-#include "apps/study/target_model.h"
+#include "apps/study/target_figures.h"
 
 namespace platen::apps {
 namespace {
@@ -105,20 +105,20 @@ std::vector<std::string> without_target(const Scene &scene) {
   return entries;
 }
 
-// Cases of one scene, `over` or not, at one speed and with what else is changed.
-StudyCase case_of(const Scene &scene, bool over, double transits, const std::string &prefix,
-                  const std::vector<std::string> &more) {
-  StudyCase one;
-  one.name = prefix + (over ? "over_" : "") + "wave_crossings_" + in_name(transits);
-  one.labels = {transits};
-  one.overrides = without_target(scene);
-  if (over && study_of(scene).target.over_scene.empty())
-    one.overrides.insert(one.overrides.end(), study_of(scene).target.over.begin(),
-                         study_of(scene).target.over.end());
-  if (over) one.scene = study_of(scene).target.over_scene;
-  one.overrides.emplace_back("Loading/Axial rate =");
-  one.overrides.push_back(set("Loading/Wave crossings", transits, ""));
-  one.overrides.insert(one.overrides.end(), more.begin(), more.end());
+// Of one scene, `over` or not, at one speed and with what else is changed.
+StudyCase case_of(const Scene &scene, bool over, double transits, const std::string &prefix = "",
+                  const std::vector<std::string> &more = {}) {
+  const StudyTarget &target = study_of(scene).target;
+  StudyCase one{prefix + (over ? "over_" : "") + "wave_crossings_" + in_name(transits),
+                without_target(scene)};
+  const auto append = [&](const std::vector<std::string> &entries) {
+    one.overrides.insert(one.overrides.end(), entries.begin(), entries.end());
+  };
+  if (over && target.over_scene.empty()) append(target.over);
+  if (over) one.scene = target.over_scene;
+  append({"Loading/Axial rate =", set("Loading/Wave crossings", transits, "")});
+  append(more);
+  one.is_expected = !over && more.empty();
   return one;
 }
 
@@ -148,17 +148,16 @@ StudyPlan plan_target(const Scene &scene, const std::vector<std::string> &overri
   check(scene);
   const TargetCases cases = target_cases(scene);
   const std::vector<double> transits = target_transits(scene);
-  StudyPlan plan;
-  plan.varied = {"wave_crossings"};
+  StudyPlan plan{StudyKind::target, {"wave_crossings"}, {}};
   for (std::size_t of = 0; of < cases.scenes; ++of)
     for (const double one : transits)
-      plan.cases.push_back(case_of(scene, of > 0, one, "", {}));
+      plan.cases.push_back(case_of(scene, of > 0, one));
   std::vector<Scene> sides{scene};
   if (cases.scenes > 1) {
     sides.push_back(read_other(scene, plan.cases[cases.at(1, 0)], overrides));
     check_calibration(scene, sides.back());
   }
-  const auto beside = [&](const std::string &prefix, auto changed) {
+  const auto beside = [&](const std::string &prefix, const auto &changed) {
     for (std::size_t of = 0; of < cases.scenes; ++of)
       plan.cases.push_back(case_of(scene, of > 0, transits.front(), prefix, {changed(sides[of])}));
   };

@@ -1,14 +1,12 @@
 #include "apps/study/target_figures.h"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
+#include "apps/output/seed_statistics.h"
 #include "apps/run/needs.h"
 #include "apps/run/specimen_setup.h"
-#include "apps/study/study_section.h"
 #include "apps/study/tables.h"
-#include "apps/study/target_prior.h"
 
 namespace platen::apps {
 namespace {
@@ -23,16 +21,16 @@ constexpr LinearCost usual_steps{1400, 285, steps_of_packing};
 // Where the packing is a file's, of which nothing has been read yet.
 constexpr double usual_spheres = 5000;
 
-} // namespace
+// Deviations of the logarithm for one sphere, both of which fall as 1 / sqrt(spheres), of concrete between
+// dry platens, docs/accuracy.md. Strength of 728 and of 5 018 spheres: packings 6 and 2.5 %, chaos 2.5 and 1
+// %. Modulus: packings 4.3 and 1.6 %, chaos .5 and .3 %. Gain by platen friction of cubes of 5 021: 1.7 and
+// 0.9 %. Gains over other scenes may share less, or more, of what packings do.
+struct Deviations {
+  double packing, chaos;
+};
+constexpr Deviations of_one_sphere[] = {{1.7, 0.7}, {1.15, 0.2}, {1.2, 0.7}}; // as TargetFigure
 
-double MeasuredChange::half(double confidence) const {
-  return boost::math::quantile(boost::math::students_t(freedom), 0.5 + confidence / 2) * error;
-}
-
-bool MeasuredChange::is_certain(double confidence) const {
-  return std::abs(mean) > half(confidence);
-}
-
+// Slope and height of the straight line through points, by least squares; through the origin of one.
 LinearCost line_through(const std::vector<double> &transits, const std::vector<double> &costs) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (std::size_t k = 0; k < transits.size(); ++k)
@@ -43,9 +41,39 @@ LinearCost line_through(const std::vector<double> &transits, const std::vector<d
   return {(y - slope * x) / n, slope, 0};
 }
 
+SeedStatistics statistics_of(const std::vector<double> &values) {
+  SeedStatistics all;
+  for (const double value : values)
+    all.add(value);
+  return all;
+}
+
+} // namespace
+
+SpreadPrior expected_spread(TargetFigure figure, double spheres) {
+  // One degree: of another material, spheres or loading the spread may well be half or twice as large. Its
+  // parts go together more closely.
+  constexpr double sum_freedom = 1, ratio_freedom = 4;
+  const Deviations one = of_one_sphere[static_cast<std::size_t>(figure)];
+  return {{one.packing * one.packing / spheres, one.chaos * one.chaos / spheres}, sum_freedom, ratio_freedom};
+}
+
+RunErrors expected_errors(TargetFigure figure, double spheres) {
+  constexpr double haste = 1.5;
+  const SpreadPrior prior = expected_spread(figure, spheres);
+  return {prior.about, prior, haste * haste};
+}
+
+double MeasuredChange::half(double confidence) const {
+  return quantile_of(freedom, 0.5 + confidence / 2) * error;
+}
+
 TargetFigures::TargetFigures(const Scene &scene)
-    : figure_(study_of(scene).target.figure), cases_(target_cases(scene)), transits_(target_transits(scene)) {
-  works_.resize(cases_.scenes * (cases_.speeds + 2));
+    : figure_(study_of(scene).target.figure),
+      cases_(target_cases(scene)),
+      transits_(target_transits(scene)),
+      logs_(cases_.scenes * (cases_.speeds + 2)),
+      works_(logs_.size()) {
   const bool packed = scene.specimen.packing != PackingKind::file;
   counted_spheres_ = packed ? counted_costs(scene, specimen_shape(scene)).spheres : usual_spheres;
 }
@@ -56,14 +84,16 @@ double TargetFigures::spheres() const {
 
 void TargetFigures::add(const TestRun &run, std::size_t packing, const RunOutcome &outcome) {
   const Json &summary = outcome.summary;
-  while (logs_.size() <= packing) {
-    logs_.emplace_back(works_.size(), std::nan(""));
-    was_packed_.push_back(false);
+  if (was_packed_.size() <= packing) {
+    was_packed_.resize(packing + 1, false);
+    for (std::vector<double> &of_case : logs_)
+      of_case.resize(packing + 1, std::nan(""));
   }
-  const char *key = figure_ == TargetFigure::modulus ? "youngs_modulus_gauge_pa" : "strength_pa";
-  const bool counts = outcome.done && (figure_ == TargetFigure::modulus || StudyTables::peaked(summary));
-  const double value = counts ? number_in(summary, key) : std::nan("");
-  logs_[packing][run.of] = value > 0 ? std::log(value) : std::nan("");
+  const bool modulus = figure_ == TargetFigure::modulus,
+             counts = outcome.done && (modulus || has_peaked(summary));
+  const double value =
+      counts ? number_in(summary, modulus ? "youngs_modulus_gauge_pa" : "strength_pa") : std::nan("");
+  logs_[run.of][packing] = value > 0 ? std::log(value) : std::nan("");
   ++made_;
   if (!(value > 0)) ++without_;
   if (!outcome.done) return;
@@ -76,30 +106,32 @@ void TargetFigures::add(const TestRun &run, std::size_t packing, const RunOutcom
   seconds_ += number_in(summary, "wall_seconds");
 }
 
-// Of a case and, of a gain, the case of the other scene, `stride` further on.
-double TargetFigures::figure_of(std::size_t packing, std::size_t of_first_scene, std::size_t stride) const {
-  const double first = logs_[packing][of_first_scene];
-  return cases_.scenes == 1 ? first : first - logs_[packing][of_first_scene + stride];
+std::vector<double> TargetFigures::figures_of(std::size_t of_first_scene, std::size_t stride) const {
+  std::vector<double> figures = logs_[of_first_scene];
+  for (std::size_t s = 0; cases_.scenes > 1 && s < figures.size(); ++s)
+    figures[s] -= logs_[of_first_scene + stride][s];
+  return figures;
+}
+
+template <class Figures>
+TargetRuns TargetFigures::runs_of(const Figures &of) const {
+  TargetRuns runs{transits_, std::vector<std::vector<double>>(was_packed_.size())};
+  for (std::size_t k = 0; k < cases_.speeds; ++k) {
+    const std::vector<double> figures = of(k);
+    for (std::size_t s = 0; s < figures.size(); ++s)
+      runs.logs[s].push_back(figures[s]);
+  }
+  return runs;
 }
 
 TargetRuns TargetFigures::runs() const {
-  TargetRuns runs{transits_, {}};
-  for (std::size_t s = 0; s < logs_.size(); ++s) {
-    runs.logs.emplace_back();
-    for (std::size_t k = 0; k < cases_.speeds; ++k)
-      runs.logs.back().push_back(figure_of(s, cases_.at(0, k), cases_.speeds));
-  }
-  return runs;
+  return runs_of([&](std::size_t k) { return figures_of(cases_.at(0, k), cases_.speeds); });
 }
 
 double TargetFigures::curvature_of_scenes() const {
   double largest = 0;
   for (std::size_t scene = 0; cases_.scenes > 1 && scene < cases_.scenes; ++scene) {
-    TargetRuns runs{transits_, {}};
-    for (const std::vector<double> &logs : logs_) {
-      const auto first = logs.begin() + static_cast<std::ptrdiff_t>(cases_.at(scene, 0));
-      runs.logs.emplace_back(first, first + static_cast<std::ptrdiff_t>(cases_.speeds));
-    }
+    const TargetRuns runs = runs_of([&](std::size_t k) { return logs_[cases_.at(scene, k)]; });
     if (const auto found = estimate(runs, expected_spread(TargetFigure::strength, spheres())))
       largest = std::max(largest, found->slope * found->slope);
   }
@@ -107,9 +139,7 @@ double TargetFigures::curvature_of_scenes() const {
 }
 
 TargetCosts TargetFigures::costs() const {
-  TargetCosts costs;
-  costs.runs.assign(cases_.speeds, 0);
-  costs.packing = steps_of_packing * spheres();
+  TargetCosts costs{std::vector<double>(cases_.speeds, 0), steps_of_packing * spheres()};
   if (with_spheres_ == 0) {
     for (std::size_t k = 0; k < cases_.speeds; ++k)
       costs.runs[k] = usual_steps.at(transits_[k]) * spheres() * static_cast<double>(cases_.scenes);
@@ -133,33 +163,22 @@ LinearCost TargetFigures::linear_cost() const {
   return line;
 }
 
-std::vector<double> TargetFigures::figures_of(std::size_t of_first_scene, std::size_t stride) const {
-  std::vector<double> figures;
-  for (std::size_t s = 0; s < logs_.size(); ++s)
-    figures.push_back(figure_of(s, of_first_scene, stride));
-  return figures;
-}
-
 std::optional<MeasuredChange> TargetFigures::of_half_step() const {
   if (!cases_.half_step) return std::nullopt;
-  const std::vector<double> half = figures_of(cases_.of_half_step(0), 1),
-                            whole = figures_of(cases_.at(0, 0), cases_.speeds);
-  SeedStatistics changes;
-  for (std::size_t s = 0; s < half.size(); ++s)
-    changes.add(half[s] - whole[s]);
-  const double count = static_cast<double>(changes.count());
-  if (changes.count() < 2) return std::nullopt;
-  return MeasuredChange{changes.mean(), changes.deviation() / std::sqrt(count), count - 1};
+  std::vector<double> changes = figures_of(cases_.of_half_step(0), 1);
+  const std::vector<double> whole = figures_of(cases_.at(0, 0), cases_.speeds);
+  for (std::size_t s = 0; s < changes.size(); ++s)
+    changes[s] -= whole[s];
+  const SeedStatistics all = statistics_of(changes);
+  if (all.count() < 2) return std::nullopt;
+  return MeasuredChange{all.mean(), all.error_of_mean(), static_cast<double>(all.count()) - 1};
 }
 
 // Of other packings: Welch's error and a freedom that is no larger than his.
 std::optional<MeasuredChange> TargetFigures::of_coarser() const {
   if (!cases_.coarser) return std::nullopt;
-  SeedStatistics coarse, fine;
-  for (const double value : figures_of(cases_.of_coarser(0), 1))
-    coarse.add(value);
-  for (const double value : figures_of(cases_.at(0, 0), cases_.speeds))
-    fine.add(value);
+  const SeedStatistics coarse = statistics_of(figures_of(cases_.of_coarser(0), 1)),
+                       fine = statistics_of(figures_of(cases_.at(0, 0), cases_.speeds));
   if (coarse.count() < 2 || fine.count() < 2) return std::nullopt;
   const double variance = std::pow(coarse.deviation(), 2) / static_cast<double>(coarse.count()) +
                           std::pow(fine.deviation(), 2) / static_cast<double>(fine.count());

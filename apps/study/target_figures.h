@@ -2,22 +2,39 @@
 // costs.
 #pragma once
 
-#include <array>
+#include <cmath>
 #include <vector>
 
 #include "apps/many/runs.h"
-#include "apps/study/cases.h"
 #include "apps/study/study_section.h"
 #include "apps/study/target_plan.h"
 
 namespace platen::apps {
 
+// The speeds that a target chooses from.
+std::vector<double> target_transits(const Scene &scene);
+
+// Places of the cases of a target in its plan.
+struct TargetCases {
+  std::size_t speeds = 0, scenes = 1;
+  bool half_step = false, coarser = false;
+  std::size_t at(std::size_t scene, std::size_t speed) const { return scene * speeds + speed; }
+  std::size_t of_half_step(std::size_t scene) const { return scenes * speeds + scene; }
+  std::size_t of_coarser(std::size_t scene) const { return scenes * (speeds + (half_step ? 1 : 0)) + scene; }
+};
+TargetCases target_cases(const Scene &scene);
+
+// By what runs of so many spheres are expected to differ before there are any.
+SpreadPrior expected_spread(TargetFigure figure, double spheres);
+// b of 1.5, above all that docs/accuracy.md measured.
+RunErrors expected_errors(TargetFigure figure, double spheres);
+
 // A difference of logarithms between packings run twice, or between two sets of packings.
 struct MeasuredChange {
   double mean = 0, error = 0; // standard error of the mean
   double freedom = 0;
-  bool is_certain(double confidence) const; // whether the interval leaves 0 out
-  double half(double confidence) const;
+  double half(double confidence) const; // of its interval
+  bool is_certain(double confidence) const { return std::abs(mean) > half(confidence); }
 };
 
 class TargetFigures {
@@ -45,25 +62,23 @@ public:
   std::optional<MeasuredChange> of_half_step() const, of_coarser() const;
 
 private:
-  using Logs = std::vector<std::vector<double>>; // by packing and case
   struct Work {
     double sum = 0, runs = 0;
   };
-  double figure_of(std::size_t packing, std::size_t of_first_scene, std::size_t stride) const;
+  // By packing: of a case and, of a gain, over the case of the other scene, `stride` further on.
   std::vector<double> figures_of(std::size_t of_first_scene, std::size_t stride) const;
+  template <class Figures> // of a speed, by packing
+  TargetRuns runs_of(const Figures &of) const;
 
   TargetFigure figure_;
   TargetCases cases_;
   std::vector<double> transits_;
-  Logs logs_;
-  std::vector<Work> works_;      // by case
-  std::vector<bool> was_packed_; // by packing
+  std::vector<std::vector<double>> logs_; // by case and packing
+  std::vector<Work> works_;               // by case
+  std::vector<bool> was_packed_;          // by packing
   double counted_spheres_ = 0;
   double spheres_ = 0, work_ = 0, seconds_ = 0; // spheres: sum over runs at the scene's size
   std::size_t made_ = 0, without_ = 0, with_spheres_ = 0;
 };
-
-// Slope and height of the straight line through points, by least squares; through the origin of one.
-LinearCost line_through(const std::vector<double> &transits, const std::vector<double> &costs);
 
 } // namespace platen::apps

@@ -1,4 +1,5 @@
-// The cheapest runs that make an interval narrow enough: so many packings at each speed.
+// The cheapest runs that make an interval narrow enough: so many packings at each speed; and what is decided
+// after each batch of runs.
 //
 // Packings are numbered, and speed k has the first counts[k] of them: a packing that a slow run needs has
 // been run fast before, so that the difference of both is free of the packing (common random numbers), and
@@ -59,6 +60,30 @@ Counts next_batch(const Counts &made, const Counts &plan);
 // The first batch: half of the plan by what is expected, two packings at each of its two speeds at least.
 Counts pilot_of(const TargetState &state, const TargetCosts &costs, const Aim &aim);
 
+// No more runs than are allowed: packings are taken off where most are asked for.
+Counts within(Counts next, const Counts &made, std::size_t most_runs);
+
+enum class Verdict {
+  unknown,    // too few runs gave the figure for an interval
+  reached,    // the interval is narrow enough
+  more,       // runs are missing
+  out_of_runs // no more runs are allowed, or no plan is enough
+};
+
+struct Decision {
+  Verdict verdict = Verdict::unknown;
+  std::optional<TargetEstimate> estimate;
+  double half = 0; // of the interval; without an estimate 0
+  // All that is still to be run, where the interval is too wide and a plan of that many packings is enough.
+  std::optional<TargetPlan> plan;
+  Counts next; // asked for with the next batch; as made where nothing is
+};
+
+// `curvature_at_least` as in estimate(); `most_runs` of all speeds together. Where the runs tell too
+// little, one packing more of the pilot. Fills the errors of the state.
+Decision decide(TargetState &state, const TargetCosts &costs, const Aim &aim, std::size_t most_runs,
+                double curvature_at_least = 0);
+
 // Runs at one speed, no haste taken off: what is fast enough for its error b / N and the scatter of so many
 // packings together to stay within the accuracy. Cost of a run at N crossings: linear in N.
 struct OneSpeed {
@@ -78,6 +103,7 @@ struct OneSpeedKnown {
   double freedom = std::numeric_limits<double>::infinity(); // of the spread; each further packing adds one
   double cost = 0;                                          // of the pilot
 };
+// Haste is allowed for up to what the pilot's error leaves possible with this confidence.
 OneSpeedKnown known_by_pilot(const TargetEstimate &pilot, std::size_t packings, double cost,
                              double confidence);
 // `fastest`: below which no speed is asked for.

@@ -7,21 +7,23 @@
 #include <functional>
 #include <vector>
 
-#include "apps/study/study_section.h"
-#include "apps/study/target_decision.h"
+#include "apps/output/run_log.h"
+#include "apps/study/study_setup.h"
 #include "apps/study/target_figures.h"
 
 namespace platen::apps {
 
-struct TargetSetup {
-  const Scene &scene;
-  const StudyPlan &plan;
-  const OutputPaths &paths;
-  std::string scene_path;
-  std::vector<std::string> overrides; // of the command line
-  int threads = 1;                    // at a time
-  std::string command;                // "platen-study target a.prm -o results/a"
-};
+// Entries that may be another when such a study goes on: what is ordered, and not what is run.
+bool may_change_on_resume(const std::string &entry);
+
+// --dry-run: by the runs that are there, what is still to be run and what it is expected to cost; or that
+// there are none, and what the pilot is.
+int tell_target_plan(const StudySetup &setup);
+
+// Makes all runs and leaves study.csv, costs.csv, study.json, summary.json. Returns the exit status: 1 where
+// the accuracy was not reached. Throws Stopped as carry_out. `summary_costs` are the keys of summary.json on
+// what the study took, asked for at the end.
+int make_target(const StudySetup &setup, RunLog &log, const std::function<Json()> &summary_costs);
 
 // What was known after a batch.
 struct TargetLook {
@@ -33,17 +35,14 @@ struct TargetLook {
 
 class TargetStudy {
 public:
-  explicit TargetStudy(const TargetSetup &setup);
+  explicit TargetStudy(const StudySetup &setup); // its first batch is the pilot
 
-  // Runs of a batch, in their order. False where they are not all there: nothing further is decided then.
-  using Carry = std::function<bool(const std::vector<TestRun> &)>;
-  using Told = std::function<void()>; // after each decision
-  // Asks for batches until the study ends; false where a batch was not carried out.
-  bool work(const Carry &carry, const Told &told);
-  // Of the batch under way: its run of that number.
+  // Of the batch: its run of that number.
   void add(std::size_t k, const RunOutcome &outcome);
+  // Once all of them are there; with the verdict `more` another batch is asked for.
+  const Decision &decide();
 
-  const TargetSetup &setup() const { return setup_; }
+  const StudySetup &setup() const { return setup_; }
   const StudyTarget &target() const { return study_of(setup_.scene).target; }
   const TargetFigures &figures() const { return figures_; }
   const TargetState &state() const { return state_; }
@@ -54,17 +53,17 @@ public:
   // Relative error for the time step: the allowance, or more where runs with half the step say so.
   double step_error() const;
   std::vector<unsigned long> seeds() const; // that have runs
-  std::size_t side_runs() const;            // with half the step, of coarser spheres
 
 private:
-  void fill_batch(const Counts &next);
+  void ask_for(const Counts &next);
   void add_to_batch(std::size_t of_case, std::size_t packing);
   std::size_t most_per_scene() const;
 
-  TargetSetup setup_;
+  const StudySetup &setup_;
   TargetCases cases_;
   TargetFigures figures_;
   TargetState state_;
+  Counts asked_; // for with the batch too
   Decision decision_;
   std::vector<TargetLook> looks_;
   std::vector<TestRun> batch_;

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "apps/programs.h"
 #include "apps/study/failure_envelope.h"
 #include "apps/study_runs.h"
 #include "base/pi.h"
@@ -105,10 +104,8 @@ TEST(FailureLine, what_points_do_not_give_is_missing_with_its_reason) {
   EXPECT_NEAR(line_through({{0, 40}, {8, 48}}).friction_angle, 0, 1e-9); // k = 1
 }
 
-StudyPlan plan_with(StudyKind kind, std::vector<std::string> entries) {
-  for (const char *entry : {"Study/Sphere radius list =", "Loading/Confinement = particles"})
-    entries.emplace_back(entry);
-  return plan_study(kind, read_scene(test_scene("study.prm"), entries, program("study")), entries);
+StudyPlan plan_with(StudyKind kind, const Words &entries) {
+  return plan_of(kind, with(entries, {no_radii, "Loading/Confinement = particles"}));
 }
 
 TEST(FailureEnvelopes, are_of_cases_that_differ_by_pressure_alone) {
@@ -170,12 +167,9 @@ TEST(FailureEnvelopes, of_any_entries_have_the_name_of_all_that_is_varied_but_th
 
 // Three runs on a hundred spheres, made by the study and one by one.
 TEST_F(Study, under_pressures_leaves_its_envelope_in_a_table_and_in_json) {
-  const std::vector<std::string> pressed{"-s", "Study/Confining pressure list = 0, 0.5 MPa, 1 MPa",
-                                         "-s", "Study/Surface list = grease",
-                                         "-s", "Study/Sphere radius list =",
-                                         "-s", "Study/Seeds = 1",
-                                         "-s", "Specimen/Packing = random close",
-                                         "-s", "Loading/Confinement = particles"};
+  const Words pressed =
+      set({"Study/Confining pressure list = 0, 0.5 MPa, 1 MPa", "Study/Surface list = grease", no_radii,
+           "Study/Seeds = 1", "Specimen/Packing = random close", "Loading/Confinement = particles"});
   const Outcome outcome = run("a", pressed, "friction");
   ASSERT_EQ(outcome.status, 0) << outcome.error;
   EXPECT_TRUE(contains(outcome.out, "envelope of grease: c = ")) << outcome.out;
@@ -183,8 +177,8 @@ TEST_F(Study, under_pressures_leaves_its_envelope_in_a_table_and_in_json) {
   ASSERT_EQ(json("a")["envelopes"].size(), 1u);
   const auto said = json("a")["envelopes"][0];
   EXPECT_EQ(said, summary_in(folder_ / "a")["envelopes"][0]);
-  EXPECT_EQ(words_in(csv, "name"), std::vector<std::string>{"grease"});
-  EXPECT_EQ(words_in(csv, "surface"), std::vector<std::string>{"grease"});
+  EXPECT_EQ(words_in(csv, "name"), Words{"grease"});
+  EXPECT_EQ(words_in(csv, "surface"), Words{"grease"});
   for (const char *key : {"runs", "slenderness", "pressure_high_pa", "cohesion_pa", "friction_angle_deg",
                           "friction_angle_error_deg", "k", "largest_miss"})
     EXPECT_EQ(column_of(csv, key).at(0), said[key].get<double>()) << key;
@@ -195,18 +189,16 @@ TEST_F(Study, under_pressures_leaves_its_envelope_in_a_table_and_in_json) {
   EXPECT_NEAR(said["q_pa"].get<double>(), fit_failure_line(points).q, 1);
   const std::string table = content_of(csv), text = content_of(folder_ / "a/study.json");
 
-  ASSERT_EQ(run("b", with(pressed, "--plan"), "friction").status, 0);
+  expect(0, "", "b", with(pressed, {"--plan"}), "friction");
   EXPECT_FALSE(fs::exists(folder_ / "b/envelope.csv"));
-  for (int k = 1; k <= 3; ++k) {
-    std::vector<std::string> one = with(pressed, "--run");
-    ASSERT_EQ(run("b", with(one, std::to_string(k)), "friction").status, 0);
-  }
-  ASSERT_EQ(run("b", with(pressed, "--collect"), "friction").status, 0);
+  for (const char *number : {"1", "2", "3"})
+    expect(0, "", "b", with(pressed, {"--run", number}), "friction");
+  expect(0, "", "b", with(pressed, {"--collect"}), "friction");
   EXPECT_EQ(content_of(folder_ / "b/envelope.csv"), table);
   EXPECT_EQ(content_of(folder_ / "b/study.json"), text);
 
   // Another study in its place: one pressure has no envelope.
-  std::vector<std::string> other = with(pressed, "--overwrite");
+  Words other = with(pressed, {"--overwrite"});
   other[1] = "Study/Confining pressure list = 1 MPa";
   ASSERT_EQ(run("a", other, "friction").status, 0);
   EXPECT_FALSE(fs::exists(csv));

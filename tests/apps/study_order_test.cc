@@ -48,9 +48,9 @@ TEST(StudyOrder, counts_seconds_by_spheres_and_way) {
   const StudyPlan plan = plan_study(StudyKind::friction, scene, {});
   ASSERT_EQ(plan.cases.size(), 6u);
   for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_GT(plan.cases[k].seconds, 0) << plan.cases[k].name;
+    EXPECT_GT(plan.cases[k].costs.seconds, 0) << plan.cases[k].name;
     // Twice the height: twice the spheres and, at the same speed, twice the steps; platens cost the same.
-    EXPECT_NEAR(plan.cases[k + 3].seconds / plan.cases[k].seconds, 4, 0.1) << plan.cases[k].name;
+    EXPECT_NEAR(plan.cases[k + 3].costs.seconds / plan.cases[k].costs.seconds, 4, 0.1) << plan.cases[k].name;
   }
 }
 

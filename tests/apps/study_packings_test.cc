@@ -18,25 +18,20 @@
 namespace platen::apps::testing {
 namespace {
 
-const std::vector<std::string> short_test{"-s", "Specimen/Sphere radius = 2 mm", "-s",
-                                          "Loading/Target strain = 0.005"};
+const Words short_test = set({"Specimen/Sphere radius = 2 mm", "Loading/Target strain = 0.005"});
 
 class SharedPacking : public ScratchFolder {
 protected:
-  std::vector<std::string> arguments(const std::string &name,
-                                     const std::vector<std::string> &options = {}) const {
-    std::vector<std::string> all{test_scene("study.prm"), "-o", name, "-t", "1"};
-    all.insert(all.end(), short_test.begin(), short_test.end());
-    all.insert(all.end(), options.begin(), options.end());
-    return all;
+  Words arguments(const std::string &name, const Words &options = {}) const {
+    return with(with({test_scene("study.prm"), "-o", name, "-t", "1"}, short_test), options);
   }
-  Outcome run(const std::string &name, const std::vector<std::string> &options = {}) const {
+  Outcome run(const std::string &name, const Words &options = {}) const {
     Outcome outcome = run_compress(arguments(name, options), folder_);
     EXPECT_EQ(outcome.status, 0) << outcome.error;
     return outcome;
   }
-  Outcome sharing(const std::string &name, std::vector<std::string> options = {}) const {
-    return run(name, with(with(std::move(options), "--packings"), "kept"));
+  Outcome sharing(const std::string &name, Words options = {}) const {
+    return run(name, with(std::move(options), {"--packings", "kept"}));
   }
   std::string difference_of(const std::string &a, const std::string &b) const {
     return difference(results_in(folder_ / a), results_in(folder_ / b));
@@ -46,6 +41,12 @@ protected:
     for (const auto &entry : fs::directory_iterator(folder_ / "kept"))
       if (entry.path().extension() == ".csv") files.push_back(entry.path());
     return files;
+  }
+  // Other spheres under the recipe of the packing that is kept, as if they were its own.
+  void plant(const std::string &spheres) const {
+    const std::string text = content_of(kept().at(0)),
+                      planted = text.substr(0, text.find('\n') + 1) + spheres;
+    put(kept().at(0), planted + "# sha256 of all above: " + sha256_of(planted) + "\n");
   }
 };
 
@@ -58,14 +59,12 @@ TEST_F(SharedPacking, changes_no_byte_of_what_a_run_leaves) {
   EXPECT_EQ(kept().size(), 1u);
 }
 
-// Another seed's spheres under its recipe, as if they were its own: what a run takes is what is there.
+// Of another seed: what a run takes is what is there.
 TEST_F(SharedPacking, is_taken_from_the_file) {
   sharing("mine");
-  const std::string text = content_of(kept().at(0));
   run("other", {"-s", "Scene/Seed = 8"});
   const std::string spheres = content_of(folder_ / "other/specimen.csv");
-  const std::string planted = text.substr(0, text.find('\n') + 1) + spheres;
-  put(kept().at(0), planted + "# sha256 of all above: " + sha256_of(planted) + "\n");
+  plant(spheres);
   sharing("taken");
   EXPECT_EQ(content_of(folder_ / "taken/specimen.csv"), spheres);
   EXPECT_NE(content_of(folder_ / "mine/specimen.csv"), spheres);
@@ -98,10 +97,10 @@ TEST_F(SharedPacking, that_is_damaged_is_told_and_made_anew) {
 }
 
 TEST_F(SharedPacking, of_another_recipe_is_another_file) {
-  const std::vector<std::vector<std::string>> others{{},
-                                                     {"-s", "Scene/Seed = 8"},
-                                                     {"-s", "Specimen/Height = 21 mm"},
-                                                     {"-s", "Specimen/Radius spread = 0.3"}};
+  const std::vector<Words> others{{},
+                                  {"-s", "Scene/Seed = 8"},
+                                  {"-s", "Specimen/Height = 21 mm"},
+                                  {"-s", "Specimen/Radius spread = 0.3"}};
   for (std::size_t k = 0; k < others.size(); ++k) {
     sharing("of_" + std::to_string(k), others[k]);
     EXPECT_EQ(kept().size(), k + 1);
@@ -174,17 +173,14 @@ TEST_F(SharedPacking, is_found_in_the_cache_by_later_runs_that_do_not_forbid_it)
   const Cache cache(folder_ / "kept");
   run("first");
   ASSERT_EQ(kept().size(), 1u);
-  const std::string text = content_of(kept().at(0));
   run("other", {"-s", "Scene/Seed = 8", "--no-cache"});
   ASSERT_EQ(kept().size(), 1u) << "--no-cache keeps nothing";
   const std::string spheres = content_of(folder_ / "other/specimen.csv");
-  const std::string planted = text.substr(0, text.find('\n') + 1) + spheres;
-  put(kept().at(0), planted + "# sha256 of all above: " + sha256_of(planted) + "\n");
+  plant(spheres);
   run("taken", {"-s", "Bond/Modulus = 30 GPa"});
   EXPECT_EQ(content_of(folder_ / "taken/specimen.csv"), spheres);
-  for (const std::vector<std::string> &options :
-       {std::vector<std::string>{"--no-cache"}, {"-s", "Specimen/Cache = none"}}) {
-    run("packed", with(options, "--overwrite"));
+  for (const Words &options : {Words{"--no-cache"}, {"-s", "Specimen/Cache = none"}}) {
+    run("packed", with(options, {"--overwrite"}));
     EXPECT_EQ(content_of(folder_ / "packed/specimen.csv"), content_of(folder_ / "first/specimen.csv"));
   }
   run("own", {"-s", "Specimen/Cache = " + (folder_ / "mine").string()});
@@ -212,7 +208,7 @@ TEST_F(SharedPacking, those_not_used_for_longest_are_removed_from_a_full_cache) 
 }
 
 TEST_F(Study, runs_on_one_seed_share_their_packing_and_change_no_byte) {
-  const std::vector<std::string> rates{"--quiet", "-s", "Study/Axial rate list = 1 m/s, 2 m/s, 4 m/s"};
+  const Words rates{"--quiet", "-s", "Study/Axial rate list = 1 m/s, 2 m/s, 4 m/s"};
   ASSERT_EQ(run("a", rates, "rate").status, 0);
   int files = 0;
   for (const auto &entry : fs::directory_iterator(folder_ / "a/packings"))
@@ -228,7 +224,7 @@ TEST_F(Study, runs_on_one_seed_share_their_packing_and_change_no_byte) {
   const std::string before = table("a");
   fs::remove_all(folder_ / "a/runs/rate_4_seed_4");
   put((*fs::directory_iterator(folder_ / "a/packings")).path(), "damaged");
-  EXPECT_EQ(run("a", with(rates, "--resume"), "rate").status, 0);
+  EXPECT_EQ(run("a", with(rates, {"--resume"}), "rate").status, 0);
   EXPECT_EQ(table("a"), before);
   // A study begun anew takes nothing from the one before.
   put(folder_ / "a/packings/mine.txt", "kept");

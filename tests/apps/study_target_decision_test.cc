@@ -1,6 +1,6 @@
 // An accuracy that was ordered: that it is reached, and that its interval holds the truth as often as it
 // says, though the study ends where the interval is narrow.
-#include "apps/study/target_decision.h"
+#include "apps/study/target_plan.h"
 
 #include <gtest/gtest.h>
 

@@ -12,12 +12,8 @@ namespace {
 
 const std::vector<double> speeds{15, 30, 60, 120};
 
-TargetState runs_of(const MadeUpFigure &figure, const Counts &counts, unsigned seed = 1) {
-  MadeUpRuns drawn(figure, seed);
-  TargetState state;
-  drawn.begin(state, speeds);
-  drawn.make(state, counts);
-  return state;
+TargetRuns runs_of(const Counts &counts) {
+  return drawn_state({}, speeds, counts).runs;
 }
 
 TEST(TargetModel, a_law_without_scatter_is_found_exactly) {
@@ -38,24 +34,16 @@ TEST(TargetModel, a_law_without_scatter_is_found_exactly) {
 
 // Every packing at 15 and 60: differences of both have twice the variance of chaos, means have the rest.
 TEST(TargetModel, two_speeds_on_all_packings_are_an_analysis_of_variance) {
-  const TargetState state = runs_of({}, {6, 0, 6, 0});
-  const std::size_t n = 6;
-  double sum = 0, difference = 0, fast = 0, slow = 0, between = 0, within = 0;
-  for (const std::vector<double> &y : state.runs.logs)
-    fast += y[0] / n, slow += y[2] / n;
-  sum = (fast + slow) / 2, difference = fast - slow;
-  for (const std::vector<double> &y : state.runs.logs) {
-    between += std::pow((y[0] + y[2]) / 2 - sum, 2);
-    within += std::pow(y[0] - y[2] - difference, 2) / 2;
-  }
-  const double chaos = within / (n - 1), packing = between / (n - 1) - chaos / 2;
+  const TargetRuns runs = runs_of({6, 0, 6, 0});
+  const Analysis of(runs, 0, 2);
+  const double n = 6, chaos = of.spread.chaos, packing = of.spread.packing;
   ASSERT_GT(packing, 0);
-  const auto found = estimate(state.runs, {});
+  const auto found = estimate(runs, {});
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->errors.spread.chaos, chaos, 1e-6 * chaos);
   EXPECT_NEAR(found->errors.spread.packing, packing, 1e-6 * packing);
-  EXPECT_NEAR(found->mean, (60 * slow - 15 * fast) / 45, 1e-9); // the line through both, at 1 / N = 0
-  EXPECT_NEAR(found->slope, difference / (1 / 15.0 - 1 / 60.0), 1e-6);
+  EXPECT_NEAR(found->mean, (60 * of.slow - 15 * of.fast) / 45, 1e-9); // the line through both, at 1 / N = 0
+  EXPECT_NEAR(found->slope, (of.fast - of.slow) / (1 / 15.0 - 1 / 60.0), 1e-6);
   EXPECT_NEAR(found->precision.packing, packing / n, 1e-6 * packing);
   EXPECT_NEAR(found->precision.chaos, chaos * (60 * 60 + 15 * 15) / (45.0 * 45) / n, 1e-6 * chaos);
   EXPECT_NEAR(std::sqrt(found->precision.speed), found->errors.curvature / (15 * 60), 1e-9);
@@ -73,9 +61,9 @@ TEST(TargetModel, freedom_is_that_of_the_packings_where_they_alone_scatter) {
 
 TEST(TargetModel, what_cannot_be_told_is_not_told) {
   EXPECT_FALSE(precision_of({{1U, 20}}, speeds, {{1e-4, 1e-4}, {}, 1})); // one speed has no slope
-  EXPECT_FALSE(estimate(runs_of({}, {20, 0, 0, 0}).runs, {}));           // nor tells chaos from packings
-  EXPECT_FALSE(estimate(runs_of({}, {1, 1, 0, 0}).runs, {}));
-  EXPECT_TRUE(estimate(runs_of({}, {2, 2, 0, 0}).runs, {}));
+  EXPECT_FALSE(estimate(runs_of({20, 0, 0, 0}), {}));                    // nor tells chaos from packings
+  EXPECT_FALSE(estimate(runs_of({1, 1, 0, 0}), {}));
+  EXPECT_TRUE(estimate(runs_of({2, 2, 0, 0}), {}));
 }
 
 struct Coverage {

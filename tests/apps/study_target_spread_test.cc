@@ -1,5 +1,5 @@
 // What is known of the spread beforehand: closed forms, and that runs outweigh it.
-#include "apps/study/target_spread.h"
+#include "apps/study/target_model.h"
 
 #include <gtest/gtest.h>
 
@@ -11,22 +11,11 @@ namespace {
 const std::vector<double> speeds{15, 60};
 
 TargetRuns runs_of(const MadeUpFigure &figure, std::size_t packings) {
-  TargetState state;
-  MadeUpRuns drawn(figure, 5);
-  drawn.begin(state, speeds);
-  drawn.make(state, {packings, packings});
-  return state.runs;
+  return drawn_state(figure, speeds, {packings, packings}, 5).runs;
 }
 
-// Both variances of an analysis of variance: n - 1 degrees each, of chaos and of chaos / 2 + packing.
 Spread by_analysis(const TargetRuns &runs) {
-  const double n = static_cast<double>(runs.logs.size());
-  double sum = 0, difference = 0, between = 0, within = 0;
-  for (const std::vector<double> &y : runs.logs)
-    sum += (y[0] + y[1]) / 2 / n, difference += (y[0] - y[1]) / n;
-  for (const std::vector<double> &y : runs.logs)
-    between += std::pow((y[0] + y[1]) / 2 - sum, 2), within += std::pow(y[0] - y[1] - difference, 2) / 2;
-  return {between / (n - 1) - within / (n - 1) / 2, within / (n - 1)};
+  return Analysis(runs, 0, 1).spread;
 }
 
 // A prior of the very spread that runs have, whatever its weight, changes nothing.

@@ -3,101 +3,49 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
-#include "apps/programs.h"
 #include "apps/scene/errors.h"
-#include "apps/study/cases.h"
 #include "apps/study/target_figures.h"
-#include "apps/study/target_prior.h"
 #include "apps/study_runs.h"
 
 namespace platen::apps::testing {
 namespace {
 
-const std::vector<std::string> base{"Loading/Stop at residual = 0.5", "Study/Wave crossings list = 2, 4, 8"};
+const Words base{"Loading/Stop at residual = 0.5", "Study/Wave crossings list = 2, 4, 8"};
+const std::string is_gain = "Study/Target/Figure = gain",
+                  over_free_ends =
+                      "Study/Target/Over = Platens/Friction static=0, Platens/Friction dynamic = 0";
 
-Scene scene_with(std::vector<std::string> entries) {
-  entries.insert(entries.begin(), base.begin(), base.end());
-  return read_scene(test_scene("study.prm"), entries, program("study"));
-}
-
-StudyPlan plan_with(std::vector<std::string> entries) {
-  entries.insert(entries.begin(), base.begin(), base.end());
-  return plan_study(StudyKind::target, read_scene(test_scene("study.prm"), entries, program("study")),
-                    entries);
+StudyPlan plan_with(const Words &entries) {
+  return plan_of(StudyKind::target, with(base, entries));
 }
 
 TEST(TargetCases, are_the_scene_at_each_speed_and_what_a_gain_is_over) {
   const StudyPlan plan =
-      plan_with({"Study/Target/Figure = gain",
-                 "Study/Target/Over = Platens/Friction static=0, Platens/Friction dynamic = 0",
-                 "Study/Target/Step seeds = 2", "Study/Target/Coarser seeds = 2"});
-  std::vector<std::string> names;
-  for (const StudyCase &one : plan.cases)
-    names.push_back(one.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"wave_crossings_2", "wave_crossings_4", "wave_crossings_8",
-                                             "over_wave_crossings_2", "over_wave_crossings_4",
-                                             "over_wave_crossings_8", "half_step_wave_crossings_2",
-                                             "half_step_over_wave_crossings_2", "coarser_wave_crossings_2",
-                                             "coarser_over_wave_crossings_2"}));
+      plan_with({is_gain, over_free_ends, "Study/Target/Step seeds = 2", "Study/Target/Coarser seeds = 2"});
+  EXPECT_EQ(names_of(plan), (Words{"wave_crossings_2", "wave_crossings_4", "wave_crossings_8",
+                                   "over_wave_crossings_2", "over_wave_crossings_4", "over_wave_crossings_8",
+                                   "half_step_wave_crossings_2", "half_step_over_wave_crossings_2",
+                                   "coarser_wave_crossings_2", "coarser_over_wave_crossings_2"}));
   EXPECT_EQ(plan.seeds, (std::vector<unsigned long>{3, 4, 5, 6, 7}));
-  const Scene over =
-      read_scene(test_scene("study.prm"), overrides_of(plan.cases[4], 9, base), program("compress"));
+  const Scene over = led_to(plan.cases[4], 9, base);
   EXPECT_EQ(over.loading.wave_transits, 4);
   EXPECT_TRUE(std::isnan(over.loading.rate));
   EXPECT_EQ(over.platens.both.friction_static, 0);
   EXPECT_EQ(over.general.seed, 9u);
   EXPECT_FALSE(over.section.has_value()); // runs do not know what they are for
-  const Scene coarser =
-      read_scene(test_scene("study.prm"), overrides_of(plan.cases[8], 3, base), program("compress"));
-  EXPECT_DOUBLE_EQ(coarser.specimen.sphere_radius, 2.5e-3);
-}
-
-TEST(TargetCases, what_leaves_nothing_to_plan_is_refused) {
-  const auto refused = [](const std::vector<std::string> &entries, const std::string &says) {
-    const std::string message = message_of<InputError>([&] { plan_with(entries); });
-    EXPECT_TRUE(contains(message, says)) << message;
-  };
-  refused({"Study/Target/Figure = gain"}, "Study/Target/Figure = gain needs one scene that it is over");
-  refused({"Study/Target/Over = Platens/Friction static = 0, Platens/Friction dynamic = 0"},
-          "has no effect: Study/Target/Figure is no gain");
-  refused({"Study/Target/Figure = gain", "Study/Target/Over = Scene/Seed = 0"}, "which the study sets");
-  refused({"Study/Target/Accuracy = 60 %"}, "Study/Target/Accuracy = 60 %");
-  refused({"Study/Target/Figure = stiffness"}, "Allowed: strength, youngs modulus, gain");
-  refused({"Study/Target/Most runs = 3"}, "is less than the pilot takes. Allowed: >= 4");
-  refused({"Study/Target/Most runs = 6", "Study/Target/Step seeds = 3"}, "Allowed: >= 7");
-  refused({"Study/Wave crossings list = 8, 4"}, "gives a target no speeds to choose from");
-  refused({"Study/Wave crossings list = 8"}, "Allowed: 2 to 8 rising numbers");
-  refused({"Loading/Stop at residual = 0.9"}, "ends a run before it is known to have peaked");
-  refused({"Study/Target/Step seeds = 3", "Integration/Time step = 1e-8 s"},
-          "Study/Target/Step seeds = 3 has no effect: Integration/Time step is set");
-  refused({"Study/Target/Figure = gain", "Study/Target/Over scene = nowhere.prm"}, "nowhere.prm");
-  const std::vector<std::string> greased{
-      "Study/Target/Figure = gain",
-      "Study/Target/Over = Platens/Friction static = 0, Platens/Friction dynamic = 0"},
-      lower{"Study/Target/Figure = gain", "Study/Target/Over = Specimen/Height = 15 mm"};
-  const auto also = [](std::vector<std::string> entries, const std::string &figures) {
-    entries.push_back("Bond/Calibrated figures = " + figures);
-    return entries;
-  };
-  refused(
-      also(greased, "compression, slenderness"),
-      "Study/Target/Figure = gain is none: the bonds are not calibrated for it: Bond/Calibrated figures = "
-      "compression, slenderness, without friction");
-  refused(also(lower, "compression, friction"), "without slenderness");
-  EXPECT_NO_THROW(plan_with(also(greased, "compression, friction")));
-  EXPECT_NO_THROW(plan_with(also(lower, "compression, slenderness")));
+  EXPECT_DOUBLE_EQ(led_to(plan.cases[8], 3, base).specimen.sphere_radius, 2.5e-3);
+  for (std::size_t k = 0; k < plan.cases.size(); ++k) // what the scene expects is of itself alone
+    EXPECT_EQ(plan.cases[k].is_expected, k < 3) << plan.cases[k].name;
 }
 
 // Another file with a step, spheres and a residual of its own.
 class OverScene : public ScratchFolder {
 protected:
-  std::vector<std::string> gain_over(const std::string &text) {
-    const std::string path = (folder_ / "over.prm").string();
-    std::ofstream(path) << "include " << test_scene("study.prm") << "\n" << text;
-    return {"Study/Target/Figure = gain", "Study/Target/Over scene = " + path, "Study/Target/Step seeds = 2",
-            "Study/Target/Coarser seeds = 2"};
+  Words gain_over(const std::string &text) {
+    put(folder_ / "over.prm", "include " + test_scene("study.prm") + "\n" + text);
+    return {is_gain, "Study/Target/Over scene = " + (folder_ / "over.prm").string(),
+            "Study/Target/Step seeds = 2", "Study/Target/Coarser seeds = 2"};
   }
 };
 
@@ -105,11 +53,7 @@ TEST_F(OverScene, halves_its_own_step_and_coarsens_its_own_spheres) {
   const StudyPlan plan =
       plan_with(gain_over("subsection Integration\n  set Safety = 0.4\nend\n"
                           "subsection Specimen\n  set Sphere radius = 2.4 mm\nend\n"));
-  const auto run_by = [&](std::size_t k) {
-    const StudyCase &one = plan.cases[k];
-    return read_scene(one.scene.empty() ? test_scene("study.prm") : one.scene, overrides_of(one, 3, base),
-                      program("compress"));
-  };
+  const auto run_by = [&](std::size_t k) { return led_to(plan.cases[k], 3, base); };
   const TargetCases cases{3, 2, true, true};
   EXPECT_EQ(run_by(cases.at(0, 2)).specimen.sphere_radius, 2e-3);
   EXPECT_EQ(run_by(cases.at(1, 2)).specimen.sphere_radius, 2.4e-3);
@@ -146,9 +90,7 @@ void add(TargetFigures &figures, std::size_t of, std::size_t packing, double str
 }
 
 TEST(TargetFigures, a_gain_is_a_difference_on_one_packing_and_costs_both_runs) {
-  TargetFigures figures(
-      scene_with({"Study/Target/Figure = gain",
-                  "Study/Target/Over = Platens/Friction static = 0, Platens/Friction dynamic = 0"}));
+  TargetFigures figures(study_scene(with(base, {is_gain, over_free_ends})));
   add(figures, 0, 0, 60e6, 1000), add(figures, 3, 0, 40e6, 900);
   add(figures, 1, 0, 58e6, 1800), add(figures, 4, 0, -1, 1700); // it never peaked
   add(figures, 1, 1, 58e6, 2000), add(figures, 4, 1, 40e6, 1700);
@@ -165,7 +107,8 @@ TEST(TargetFigures, a_gain_is_a_difference_on_one_packing_and_costs_both_runs) {
 }
 
 TEST(TargetFigures, half_the_step_is_compared_packing_by_packing) {
-  TargetFigures figures(scene_with({"Study/Target/Step seeds = 3", "Study/Target/Coarser seeds = 2"}));
+  TargetFigures figures(
+      study_scene(with(base, {"Study/Target/Step seeds = 3", "Study/Target/Coarser seeds = 2"})));
   for (std::size_t s = 0; s < 3; ++s) {
     const double strength = 40e6 * std::exp(0.1 * static_cast<double>(s));
     add(figures, 0, s, strength, 1000);
@@ -204,25 +147,12 @@ TEST(TargetPrior, expects_what_concrete_was_measured_to_scatter_by) {
   EXPECT_DOUBLE_EQ(expected_errors(TargetFigure::strength, 5018).curvature, 1.5 * 1.5);
 }
 
-std::vector<std::string> options(const std::vector<std::string> &entries) {
-  std::vector<std::string> all{"--quiet"};
-  for (const std::vector<std::string> &part : {base, entries})
-    for (const std::string &entry : part)
-      all.insert(all.end(), {"-s", entry});
-  return all;
-}
-
-const std::vector<std::string> modulus =
-    options({"Study/Target/Figure = youngs modulus", "Study/Target/Accuracy = 10 %",
-             "Study/Target/Pilot seeds = 3", "Loading/Target strain = 0.03"});
+const Words modulus = set(with(base, {"Study/Target/Figure = youngs modulus", "Study/Target/Accuracy = 10 %",
+                                      "Study/Target/Pilot seeds = 3", "Loading/Target strain = 0.03"}));
 
 // All but seconds.
 Json lasting(Json study) {
   study.erase("costs");
-  for (Json &one : study["cases"])
-    for (const char *key :
-         {"wall_seconds", "setup_seconds", "particle_steps_per_second", "peak_memory_bytes"})
-      one.erase(key);
   return study;
 }
 
@@ -242,69 +172,53 @@ TEST_F(Study, of_target_ends_where_the_interval_is_as_narrow_as_was_ordered) {
   EXPECT_EQ(target["looks"].back()["runs"], study["runs"]);
   EXPECT_GT(study["costs"]["core_seconds"], 0);
   // On two at a time, and after a run was lost, the same bytes.
-  ASSERT_EQ(run("b", with(with(modulus, "-t"), "2"), "target").status, 0);
+  ASSERT_EQ(run("b", with(modulus, {"-t", "2"}), "target").status, 0);
   EXPECT_EQ(table("b"), table("a"));
   EXPECT_EQ(lasting(json("b")), lasting(study));
   fs::remove(folder_ / "b/runs/wave_crossings_4_seed_4/summary.json");
   fs::remove(folder_ / "b/study.csv");
-  ASSERT_EQ(run("b", with(modulus, "--resume"), "target").status, 0);
+  ASSERT_EQ(run("b", with(modulus, {"--resume"}), "target").status, 0);
   EXPECT_EQ(table("b"), table("a"));
   EXPECT_EQ(lasting(json("b")), lasting(study));
 }
 
 TEST_F(Study, of_target_plans_by_its_pilot_and_goes_on_when_more_is_allowed) {
-  const auto also = [](std::vector<std::string> to, const std::string &entry) {
-    to.insert(to.end(), {"-s", entry});
-    return to;
-  };
-  Outcome told = run("a", with(modulus, "--dry-run"), "target");
+  Outcome told = run("a", with(modulus, {"--dry-run"}), "target");
   EXPECT_EQ(told.status, 0);
   EXPECT_TRUE(contains(told.out, "no plan can be made yet: 0 of 6 runs of the pilot are there")) << told.out;
   EXPECT_FALSE(fs::exists(folder_ / "a"));
-  const Outcome pilot = run("a", also(modulus, "Study/Target/Most runs = 6"), "target");
-  EXPECT_EQ(pilot.status, 1); // not as accurate as was ordered
-  EXPECT_TRUE(contains(pilot.error, "the accuracy of 10 % was not reached")) << pilot.error;
-  told = run("a", with(modulus, "--dry-run"), "target");
+  expect(1, "the accuracy of 10 % was not reached", "a", with(modulus, set({"Study/Target/Most runs = 6"})),
+         "target");
+  told = run("a", with(modulus, {"--dry-run"}), "target");
   EXPECT_EQ(told.status, 0);
   for (const char *words : {"by 6 runs that are there", "plan, packings at so many wave crossings: 2: ",
                             "(3 there)", "s of one core more; predicted +- "})
     EXPECT_TRUE(contains(told.out, words)) << told.out;
-  ASSERT_EQ(run("a", with(modulus, "--resume"), "target").status, 0) << content_of(folder_ / "error.txt");
-  ASSERT_EQ(run("straight", modulus, "target").status, 0);
+  expect(0, "", "a", with(modulus, {"--resume"}), "target");
+  expect(0, "", "straight", modulus, "target");
   EXPECT_EQ(table("a"), table("straight"));
   EXPECT_EQ(lasting(json("a")), lasting(json("straight")));
-  const Outcome other = run("a", also(with(modulus, "--resume"), "Study/Target/Pilot seeds = 4"), "target");
-  EXPECT_EQ(other.status, 2);
-  EXPECT_TRUE(contains(other.error, "Study/Target/Pilot seeds = 4 was 3")) << other.error;
+  expect(2, "Study/Target/Pilot seeds = 4 was 3", "a",
+         with(modulus, {"--resume", "-s", "Study/Target/Pilot seeds = 4"}), "target");
 }
 
-TEST_F(Study, of_target_runs_both_scenes_of_a_gain_and_refuses_to_be_split) {
-  const std::vector<std::string> gain =
-      options({"Study/Target/Figure = gain", "Study/Target/Accuracy = 50 %", "Study/Target/Pilot seeds = 3",
-               "Study/Target/Most runs = 12",
-               "Study/Target/Over = Platens/Friction static = 0, Platens/Friction dynamic = 0",
-               "Loading/Target strain = 0.05"});
+TEST_F(Study, of_target_runs_both_scenes_of_a_gain) {
+  const Words gain =
+      set(with(base, {is_gain, over_free_ends, "Study/Target/Accuracy = 50 %", "Study/Target/Pilot seeds = 3",
+                      "Study/Target/Most runs = 12", "Loading/Target strain = 0.05"}));
   const int status = run("a", gain, "target").status;
   EXPECT_TRUE(status == 0 || status == 1) << content_of(folder_ / "error.txt");
-  EXPECT_EQ(words_in(folder_ / "a/study.csv", "case")[1], "over_wave_crossings_2");
+  const Words cases = words_in(folder_ / "a/study.csv", "case");
+  EXPECT_EQ(cases[1], "over_wave_crossings_2");
   EXPECT_EQ(json("a")["target"]["figure"], "gain of strength");
   // Each packing at each speed in both scenes: two of them at two speeds at least, which tell an interval.
   const int runs = json("a")["runs"];
   EXPECT_LE(runs, 12);
   EXPECT_GE(runs, 8);
-  const std::vector<std::string> cases = words_in(folder_ / "a/study.csv", "case");
   const auto over = std::count_if(cases.begin(), cases.end(),
                                   [](const std::string &name) { return name.rfind("over_", 0) == 0; });
   EXPECT_EQ(static_cast<int>(cases.size()), runs);
   EXPECT_EQ(2 * over, runs);
-  for (const std::vector<std::string> &option :
-       {std::vector<std::string>{"--plan"}, {"--run", "1"}, {"--collect"}}) {
-    std::vector<std::string> split = gain;
-    split.insert(split.end(), option.begin(), option.end());
-    const Outcome refused = run("b", split, "target");
-    EXPECT_EQ(refused.status, 2);
-    EXPECT_TRUE(contains(refused.error, option[0] + " does not go with a study of target")) << refused.error;
-  }
 }
 
 } // namespace

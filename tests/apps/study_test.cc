@@ -1,21 +1,21 @@
 // platen-study as a user runs it, on specimens of a hundred spheres; and what it plans.
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cmath>
+#include <random>
 #include <thread>
 
-#include "apps/programs.h"
-#include "apps/scene/errors.h"
-#include "apps/study/cases.h"
-#include "apps/study/tables.h"
+#include "apps/output/seed_statistics.h"
 #include "apps/study_runs.h"
 
 namespace platen::apps::testing {
 namespace {
+
+const Words one_size = set({"Study/Sphere radius list = 2 mm"});
 
 TEST_F(Study, rows_are_the_runs_and_means_are_of_the_rows) {
   const Outcome outcome = run("a", {});
@@ -56,8 +56,7 @@ TEST_F(Study, rows_are_the_runs_and_means_are_of_the_rows) {
 TEST_F(Study, the_number_of_runs_at_a_time_changes_no_byte) {
   ASSERT_EQ(run("one", {"--quiet"}).status, 0);
   ASSERT_EQ(run("three", {"--quiet", "-t", "3"}).status, 0);
-  EXPECT_EQ(table("one"), table("three"));
-  EXPECT_EQ(content_of(folder_ / "one/study.json"), content_of(folder_ / "three/study.json"));
+  expect_same_tables("one", "three");
 }
 
 TEST_F(Study, several_at_a_time_start_the_longest_first) {
@@ -72,10 +71,6 @@ TEST_F(Study, several_at_a_time_start_the_longest_first) {
   EXPECT_LT(fine, coarse);
 }
 
-// A run of its own on the way: fine enough to be met before it ends.
-const std::vector<std::string> slow{"--quiet", "-s", "Study/Sphere radius list = 2 mm, 0.9 mm"};
-const char *const met = "sphere_radius_0.9_mm_seed_3";
-
 TEST_F(Study, one_stopped_by_a_signal_goes_on_to_the_same_table) {
   ASSERT_EQ(run("whole", slow).status, 0);
   for (const int signal : {SIGTERM, SIGINT}) {
@@ -89,11 +84,9 @@ TEST_F(Study, one_stopped_by_a_signal_goes_on_to_the_same_table) {
     EXPECT_EQ(summary_in(inner)["status"], "stopped");
     EXPECT_FALSE(fs::exists(folder_ / name / "summary.json"));
     EXPECT_EQ(lines_in(folder_ / name / "study.csv"), 3); // both runs of the first case
-    const Outcome rest = run(name, with(slow, "--resume"));
-    EXPECT_EQ(rest.status, 0) << rest.error;
+    expect(0, "", name, with(slow, {"--resume"}));
     EXPECT_TRUE(contains(content_of(inner / "run.log"), "resumed at step"));
-    EXPECT_EQ(table(name), table("whole"));
-    EXPECT_EQ(content_of(folder_ / name / "study.json"), content_of(folder_ / "whole/study.json"));
+    expect_same_tables(name, "whole");
     EXPECT_TRUE(contains(content_of(folder_ / name / "run.log"), "kept"));
   }
 }
@@ -109,9 +102,35 @@ TEST_F(Study, a_killed_one_leaves_no_run_behind_and_goes_on) {
   for (int tenths = 0; tenths < 100 && !fs::exists(inner / "summary.json"); ++tenths)
     usleep(100000);
   ASSERT_EQ(summary_in(inner)["status"], "stopped");
-  const Outcome rest = run("killed", with(slow, "--resume"));
-  EXPECT_EQ(rest.status, 0) << rest.error;
+  expect(0, "", "killed", with(slow, {"--resume"}));
   EXPECT_EQ(table("killed"), table("whole"));
+}
+
+// Killed again and again, at once taken up: the runs that were under way end on their own, and the next study
+// waits for them.
+TEST_F(Study, one_killed_at_random_comes_to_the_same_table) {
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_EQ(run("whole", {}).status, 0);
+  const double whole = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::mt19937 engine(7);
+  std::uniform_real_distribution<double> wait(0.01 * whole, 0.3 * whole); // s
+  const auto begun = [&] { return fs::exists(folder_ / "killed/study.json"); };
+  int kills = 0, status = -1;
+  for (int round = 0; round < 10 && status != 0; ++round) {
+    Program program(command("killed", {"-t", "2", begun() ? "--resume" : "--overwrite"}), folder_);
+    // The first two are killed at any time, the others once there is something to take up: a busy machine may
+    // need longer to start than the longest wait.
+    while (round >= 2 && !begun() && program.running())
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    std::this_thread::sleep_for(std::chrono::duration<double>(wait(engine)));
+    if (program.running()) program.send(SIGKILL), ++kills;
+    status = program.wait();
+    ASSERT_TRUE(status == 0 || status == -SIGKILL) << content_of(folder_ / "error.txt");
+  }
+  EXPECT_GE(kills, 2);
+  ASSERT_TRUE(begun());
+  expect(0, "", "killed", {"--resume"});
+  expect_same_tables("killed", "whole");
 }
 
 TEST_F(Study, a_damaged_checkpoint_and_a_lost_summary_cost_only_that_run) {
@@ -121,22 +140,19 @@ TEST_F(Study, a_damaged_checkpoint_and_a_lost_summary_cost_only_that_run) {
   fs::remove(one / "summary.json");
   for (const auto &file : fs::directory_iterator(one / "checkpoint"))
     put(file.path(), "no checkpoint");
-  const Outcome rest = run("a", {"--resume"});
-  EXPECT_EQ(rest.status, 0) << rest.error;
-  EXPECT_TRUE(contains(rest.error, "starts anew")) << rest.error;
+  expect(0, "starts anew", "a", {"--resume"});
   EXPECT_EQ(table("a"), before);
 }
 
 // What the summary of one run has become, and what --resume has to say of it.
 TEST_F(Study, a_summary_that_is_not_that_of_its_run_is_made_again_and_says_why) {
-  const std::vector<std::string> small{"-s", "Study/Sphere radius list = 2 mm"};
-  ASSERT_EQ(run("a", small).status, 0);
+  ASSERT_EQ(run("a", one_size).status, 0);
   const std::string before = table("a");
   const std::string name = "sphere_radius_2_mm_seed_4";
   const fs::path one = folder_ / "a/runs" / name, summary = one / "summary.json";
   const std::string whole = content_of(summary);
   const auto made_again = [&](const std::string &reason) {
-    const Outcome rest = run("a", with(small, "--resume"));
+    const Outcome rest = run("a", with(one_size, {"--resume"}));
     EXPECT_EQ(rest.status, 0) << rest.error;
     EXPECT_EQ(table("a"), before);
     const std::string said = reason.empty() ? "" : name + ": is made again: " + reason;
@@ -150,7 +166,7 @@ TEST_F(Study, a_summary_that_is_not_that_of_its_run_is_made_again_and_says_why) 
   made_again("summary.json is damaged");
   fs::remove(summary);
   fs::create_directory(summary);
-  EXPECT_EQ(run("a", with(small, "--resume")).status, 4); // in the way: no run can write there
+  EXPECT_EQ(run("a", with(one_size, {"--resume"})).status, 4); // in the way: no run can write there
   fs::remove(summary);
   made_again("");
   // Whole, but that of its neighbour; then with its scene, and with all that it left.
@@ -165,14 +181,13 @@ TEST_F(Study, a_summary_that_is_not_that_of_its_run_is_made_again_and_says_why) 
 
 TEST_F(Study, a_file_that_the_scene_names_has_to_be_the_one_that_was_run) {
   put(folder_ / "aggregate.txt", "1\n2\n3\n");
-  const std::vector<std::string> phases{"-s", "Phases/By = file",
-                                        "-s", "Phases/File = " + (folder_ / "aggregate.txt").string(),
-                                        "-s", "Study/Sphere radius list = 2 mm"};
+  const Words phases =
+      with(one_size, set({"Phases/By = file", "Phases/File = " + (folder_ / "aggregate.txt").string()}));
   const Outcome first = run("a", phases);
   ASSERT_EQ(first.status, 0) << first.error;
-  EXPECT_FALSE(contains(run("a", with(phases, "--resume")).error, "again"));
+  EXPECT_FALSE(contains(run("a", with(phases, {"--resume"})).error, "again"));
   put(folder_ / "aggregate.txt", "1\n2\n4\n");
-  const Outcome rest = run("a", with(phases, "--resume"));
+  const Outcome rest = run("a", with(phases, {"--resume"}));
   EXPECT_EQ(rest.status, 0) << rest.error;
   for (const char *seed : {"seed_3", "seed_4"})
     EXPECT_TRUE(contains(
@@ -180,16 +195,8 @@ TEST_F(Study, a_file_that_the_scene_names_has_to_be_the_one_that_was_run) {
         << rest.error;
 }
 
-// The run that is under way, by its parent in /proc.
-pid_t child_of(pid_t parent) {
-  std::ifstream children("/proc/" + std::to_string(parent) + "/task/" + std::to_string(parent) + "/children");
-  pid_t child = -1;
-  children >> child;
-  return children ? child : -1;
-}
-
 TEST_F(Study, a_run_that_is_killed_is_told_by_its_signal_and_made_again) {
-  const std::vector<std::string> two{"-s", "Study/Sphere radius list = 2 mm, 1 mm", "-s", "Study/Seeds = 1"};
+  const Words two = set({"Study/Sphere radius list = 2 mm, 1 mm", "Study/Seeds = 1"});
   const std::string finer = "sphere_radius_1_mm_seed_3";
   ASSERT_EQ(run("whole", two).status, 0);
   Program program(command("killed", two), folder_);
@@ -201,37 +208,33 @@ TEST_F(Study, a_run_that_is_killed_is_told_by_its_signal_and_made_again) {
   EXPECT_EQ(program.wait(), 0);
   const std::string error = content_of(folder_ / "error.txt");
   EXPECT_TRUE(contains(error, finer + ": failed, ended by signal 9")) << error;
-  EXPECT_EQ(words_in(folder_ / "killed/study.csv", "status"), (std::vector<std::string>{"done", "failed"}));
-  EXPECT_EQ(run("killed", with(two, "--resume")).status, 0);
+  EXPECT_EQ(words_in(folder_ / "killed/study.csv", "status"), (Words{"done", "failed"}));
+  EXPECT_EQ(run("killed", with(two, {"--resume"})).status, 0);
   EXPECT_EQ(table("killed"), table("whole"));
 }
 
 // One that is gone is made again, one under another name is nobody's and stays.
 TEST_F(Study, a_run_whose_folder_is_gone_or_renamed_is_made_again) {
-  const std::vector<std::string> small{"-s", "Study/Sphere radius list = 2 mm"};
-  ASSERT_EQ(run("a", small).status, 0);
+  ASSERT_EQ(run("a", one_size).status, 0);
   const std::string before = table("a");
   fs::remove_all(folder_ / "a/runs/sphere_radius_2_mm_seed_3");
   fs::rename(folder_ / "a/runs/sphere_radius_2_mm_seed_4", folder_ / "a/runs/mine");
-  EXPECT_EQ(run("a", with(small, "--resume")).status, 0);
+  EXPECT_EQ(run("a", with(one_size, {"--resume"})).status, 0);
   EXPECT_EQ(table("a"), before);
   EXPECT_TRUE(fs::exists(folder_ / "a/runs/mine/summary.json"));
 }
 
 TEST_F(Study, pipes_under_the_names_of_its_files_keep_nothing_waiting) {
-  const std::vector<std::string> small{"-s", "Study/Sphere radius list = 2 mm"};
-  ASSERT_EQ(run("a", small).status, 0);
+  ASSERT_EQ(run("a", one_size).status, 0);
   const std::string before = table("a");
   const fs::path summary = folder_ / "a/runs/sphere_radius_2_mm_seed_3/summary.json";
   fs::remove(summary);
   ASSERT_EQ(mkfifo(summary.c_str(), 0600), 0);
-  const Outcome rest = run("a", with(small, "--resume"));
-  EXPECT_EQ(rest.status, 0) << rest.error;
-  EXPECT_TRUE(contains(rest.error, "seed_3: is made again: summary.json is no file")) << rest.error;
+  expect(0, "seed_3: is made again: summary.json is no file", "a", with(one_size, {"--resume"}));
   EXPECT_EQ(table("a"), before);
   fs::remove(folder_ / "a/study.json");
   ASSERT_EQ(mkfifo((folder_ / "a/study.json").c_str(), 0600), 0);
-  EXPECT_EQ(run("a", with(small, "--resume")).status, 2);
+  EXPECT_EQ(run("a", with(one_size, {"--resume"})).status, 2);
 }
 
 TEST_F(Study, a_case_that_fails_is_told_and_survived) {
@@ -240,8 +243,7 @@ TEST_F(Study, a_case_that_fails_is_told_and_survived) {
   EXPECT_EQ(outcome.status, 0) << outcome.error;
   EXPECT_TRUE(contains(outcome.error, "2 of 4 runs failed")) << outcome.error;
   EXPECT_TRUE(contains(outcome.error, "Integration/Time step")) << outcome.error;
-  EXPECT_EQ(words_in(folder_ / "a/study.csv", "status"),
-            (std::vector<std::string>{"done", "done", "failed", "failed"}));
+  EXPECT_EQ(words_in(folder_ / "a/study.csv", "status"), (Words{"done", "done", "failed", "failed"}));
   const std::vector<double> strength = column_of(folder_ / "a/study.csv", "strength_pa");
   EXPECT_GT(strength[1], 0);
   EXPECT_TRUE(std::isnan(strength[2]));
@@ -323,41 +325,12 @@ TEST_F(Study, thicker_bonds_and_more_of_them_are_stiffer) {
   EXPECT_GT(young[2], young[0]);
 }
 
-TEST_F(Study, faults_are_refused_before_anything_is_written) {
-  const auto refused = [&](const std::vector<std::string> &options, const std::string &kind,
-                           const std::string &says) {
-    const Outcome outcome = run("a", options, kind);
-    EXPECT_EQ(outcome.status, 2) << says;
-    EXPECT_TRUE(contains(outcome.error, says)) << outcome.error;
-    EXPECT_FALSE(fs::exists(folder_ / "a"));
-  };
-  refused({}, "sizes", "Did you mean \"size\"?");
-  refused({}, "rate", "Study/Axial rate list is not set");
-  refused({}, "packing", "Study/Gap list is not set");
-  refused({"-s", "Study/Sphere radius list = 1 mm, 0.001"}, "size", "twice");
-  refused({"-s", "Study/Sphere radius list = 1 mm,"}, "size", "is empty");
-  refused({"-s", "Study/Sphere radius list = 30 mm"}, "size", "sphere_radius_30_mm, which cannot be run");
-  refused({"-s", "Study/Domain list = 20 mm"}, "size", "is no pair");
-  refused({"-s", "Study/Domain list = 20 mm x 5 s"}, "size", "20 mm x 5 s");
-  refused({"-s", "Study/Seeds = 0"}, "size", "Study/Seeds");
-  refused({"-s", "Scene/Seed = 4294967295"}, "size", "Scene/Seed");
-  refused({"-s", "Specimen/Shape = box", "-s", "Specimen/Radius =", "-s", "Specimen/Width x = 20 mm", "-s",
-           "Specimen/Width y = 20 mm", "-s", "Study/Domain list = 20 mm x 5 mm"},
-          "size", "holds cylinders");
-  refused({"--resume"}, "size", "a/scene.prm: error: is missing: the folder holds nothing to resume");
-}
-
 TEST_F(Study, another_scene_or_kind_is_not_resumed_nor_overwritten_unasked) {
-  const std::vector<std::string> quick{"--quiet",         "-s", "Study/Axial rate list = 1 m/s",  "-s",
-                                       "Study/Seeds = 1", "-s", "Study/Sphere radius list = 2 mm"};
+  const Words quick = with(one_size, set({"Study/Axial rate list = 1 m/s", "Study/Seeds = 1"}));
   ASSERT_EQ(run("a", quick).status, 0);
   const std::string before = table("a");
-  const Outcome kind = run("a", with(quick, "--resume"), "rate");
-  EXPECT_EQ(kind.status, 2);
-  EXPECT_TRUE(contains(kind.error, "is of a study of size")) << kind.error;
-  const Outcome scene = run("a", {"--resume"});
-  EXPECT_EQ(scene.status, 2);
-  EXPECT_TRUE(contains(scene.error, "Study/Seeds = 2 was 1 when the run began")) << scene.error;
+  expect(2, "is of a study of size", "a", with(quick, {"--resume"}), "rate");
+  expect(2, "Study/Seeds = 2 was 1 when the run began", "a", {"--resume"});
   EXPECT_EQ(run("a", quick).status, 2);
   EXPECT_EQ(table("a"), before);
   fs::remove_all(folder_ / "b");
@@ -365,7 +338,7 @@ TEST_F(Study, another_scene_or_kind_is_not_resumed_nor_overwritten_unasked) {
   fs::rename(folder_ / "a/runs", folder_ / "b/runs");
   EXPECT_EQ(run("b", quick).status, 2); // runs of who knows what
   put(folder_ / "b/runs/notes/of_the_user.txt", "kept");
-  ASSERT_EQ(run("b", with(quick, "--overwrite"), "rate").status, 0);
+  ASSERT_EQ(run("b", with(quick, {"--overwrite"}), "rate").status, 0);
   EXPECT_FALSE(fs::exists(folder_ / "b/runs/sphere_radius_2_mm_seed_3"));
   EXPECT_TRUE(fs::exists(folder_ / "b/runs/rate_1_seed_3/summary.json"));
   EXPECT_TRUE(fs::exists(folder_ / "b/runs/notes/of_the_user.txt"));
@@ -378,52 +351,6 @@ TEST_F(Study, a_dry_run_tells_of_each_case_and_writes_nothing) {
   EXPECT_TRUE(contains(outcome.out, "sphere_radius_1.4_mm_seed_3\n")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "time step")) << outcome.out;
   EXPECT_FALSE(fs::exists(folder_ / "a"));
-}
-
-Scene scene_with(const std::vector<std::string> &entries) {
-  return read_scene(test_scene("study.prm"), entries, program("study"));
-}
-
-TEST(StudyPlan, where_no_size_is_given_they_are_in_proportion_to_the_specimen) {
-  for (const double times : {1.0, 10.0, 0.1}) {
-    const std::vector<std::string> entries{fmt::format("Specimen/Height = {:.12g} m", 0.08 * times),
-                                           fmt::format("Specimen/Radius = {:.12g} m", 0.025 * times),
-                                           fmt::format("Specimen/Sphere radius = {:.12g} m", 0.001 * times),
-                                           "Study/Sphere radius list ="};
-    const StudyPlan plan = plan_study(StudyKind::size, scene_with(entries), entries);
-    ASSERT_EQ(plan.cases.size(), 4u);
-    for (const auto &[k, radius] : {std::pair{0u, 0.0005}, {1u, 0.00075}, {2u, 0.001}, {3u, 0.00125}})
-      EXPECT_DOUBLE_EQ(plan.cases[k].labels[0], radius * times) << times;
-  }
-}
-
-TEST(StudyPlan, sizes_of_the_thesis_are_six_cases) {
-  const std::vector<std::string> entries{"Specimen/Height = 80 mm", "Specimen/Radius = 25 mm",
-                                         "Specimen/Sphere radius = 1 mm",
-                                         "Study/Sphere radius list = 0.5 mm, 0.75 mm, 1 mm, 1.25 mm",
-                                         "Study/Domain list = 80 mm x 25 mm, 72 mm x 22.5 mm, 65 mm x 20 mm"};
-  const StudyPlan plan = plan_study(StudyKind::size, scene_with(entries), entries);
-  ASSERT_EQ(plan.cases.size(), 6u); // 80 mm x 25 mm at 1 mm stands in both lists
-  EXPECT_EQ(plan.cases[2].name, "sphere_radius_1_mm");
-  EXPECT_EQ(plan.cases[4].name, "sphere_radius_1_mm_height_72_mm_radius_22.5_mm");
-  EXPECT_DOUBLE_EQ(plan.cases[4].labels[0], 0.001);
-  EXPECT_DOUBLE_EQ(plan.cases[4].labels[1], 0.072);
-  EXPECT_DOUBLE_EQ(plan.cases[4].labels[2], 0.0225);
-  const Scene last =
-      read_scene(test_scene("study.prm"), overrides_of(plan.cases[5], 9, entries), program("compress"));
-  EXPECT_DOUBLE_EQ(last.specimen.height, 0.065);
-  EXPECT_DOUBLE_EQ(last.specimen.radius, 0.02);
-  EXPECT_DOUBLE_EQ(last.specimen.sphere_radius, 0.001);
-  EXPECT_EQ(last.general.seed, 9u);
-}
-
-TEST(StudyPlan, without_lists_the_sizes_are_those_of_the_thesis) {
-  const std::vector<std::string> entries{"Study/Sphere radius list =", "Specimen/Radius = 25 mm",
-                                         "Specimen/Height = 80 mm"};
-  const StudyPlan plan = plan_study(StudyKind::size, scene_with(entries), entries);
-  ASSERT_EQ(plan.cases.size(), 4u);
-  EXPECT_EQ(plan.cases[0].labels[0], 0.0005);
-  EXPECT_EQ(plan.cases[3].labels[0], 0.00125);
 }
 
 TEST(SeedStatistics, a_number_that_was_not_measured_does_not_count) {

@@ -48,6 +48,35 @@ private:
   std::vector<double> packings_;
 };
 
+// Runs of a figure as drawn; the seed tells one draw from another.
+inline TargetState drawn_state(const MadeUpFigure &figure, const std::vector<double> &transits,
+                               const Counts &counts, unsigned seed = 1) {
+  MadeUpRuns drawn(figure, seed);
+  TargetState state;
+  drawn.begin(state, transits);
+  drawn.make(state, counts);
+  return state;
+}
+
+// Analysis of variance of packings that are all run at two speeds of several: n - 1 degrees each, of chaos
+// and of chaos / 2 + packing.
+struct Analysis {
+  double fast = 0, slow = 0; // means
+  Spread spread;
+
+  Analysis(const TargetRuns &runs, std::size_t at_fast, std::size_t at_slow) {
+    const double n = static_cast<double>(runs.logs.size());
+    double between = 0, within = 0;
+    for (const std::vector<double> &y : runs.logs)
+      fast += y[at_fast] / n, slow += y[at_slow] / n;
+    for (const std::vector<double> &y : runs.logs) {
+      between += std::pow((y[at_fast] + y[at_slow] - fast - slow) / 2, 2);
+      within += std::pow(y[at_fast] - y[at_slow] - fast + slow, 2) / 2;
+    }
+    spread.chaos = within / (n - 1), spread.packing = between / (n - 1) - spread.chaos / 2;
+  }
+};
+
 // Steps of the concrete cylinder of 5 018 spheres (docs/accuracy.md), in multiples of its spheres.
 inline TargetCosts costs_of_cylinder(const std::vector<double> &transits) {
   TargetCosts costs;
