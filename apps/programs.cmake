@@ -3,7 +3,6 @@ set(PLATEN_PROGRAM_SOURCES
   programs.cc
   bar/bar_section.cc
   bonds/pair_section.cc
-  calibrate/calibrate_checks.cc
   calibrate/calibrate_section.cc
   calibrate/choice.cc
   calibrate/target.cc

@@ -42,8 +42,6 @@ Json make_abacus(const Scene &scene, const OutputPaths &paths, Trials &trials, R
       if (linear) asked.back().choice[FreeParameter::modulus] = scene.model.bond_layout.modulus;
     }
   const std::vector<TrialResult> results = trials(asked);
-  const auto young_of = [](const TrialResult &r) { return r.number("youngs_modulus_gauge_pa"); };
-
   WholeTable table(paths.folder / "abacus.csv", cells_of(columns));
   Json rows = Json::array();
   log.info("  {:>10} {:>7} {:>10} {:>7} {:>12} {:>9} {:>9} {:>12} {:>9}", "bond, GPa", "ks/kn", "multiplier",
@@ -54,27 +52,26 @@ Json make_abacus(const Scene &scene, const OutputPaths &paths, Trials &trials, R
                  bond_poisson = beams ? c[FreeParameter::poisson_ratio] : not_given;
     SeedStatistics young, poisson, voigt, voigt_poisson;
     for (std::size_t s = 0; s < seeds.size(); ++s) {
-      const TrialResult &r = results[k * seeds.size() + s];
+      const TrialResult &r = results[k * seeds.size() + s]; // no numbers of one that failed
       const double scale = linear ? c[FreeParameter::modulus] / scene.model.bond_layout.modulus : 1.0;
-      const dem::NetworkModuli b = bounds_of(trials.with(c, seeds[s]), trials.packing(seeds[s]));
-      table.row({seeds[s], c[FreeParameter::modulus], ratio, c[FreeParameter::radius_multiplier],
-                 bond_poisson, scale * young_of(r), scale * r.number("youngs_modulus_platen_pa"),
-                 r.number("poisson_ratio"), b.young_voigt, b.poisson_voigt, b.young_reuss, b.poisson_reuss});
-      if (r.good()) young.add(scale * young_of(r)), poisson.add(r.number("poisson_ratio"));
+      const dem::NetworkModuli b = network_bounds(trials.with(c, seeds[s]), trials.packing(seeds[s]));
+      young.add(scale * r.number("youngs_modulus_gauge_pa")), poisson.add(r.number("poisson_ratio"));
       voigt.add(b.young_voigt), voigt_poisson.add(b.poisson_voigt);
+      table.row({seeds[s], c[FreeParameter::modulus], ratio, c[FreeParameter::radius_multiplier],
+                 bond_poisson, scale * r.number("youngs_modulus_gauge_pa"),
+                 scale * r.number("youngs_modulus_platen_pa"), r.number("poisson_ratio"), b.young_voigt,
+                 b.poisson_voigt, b.young_reuss, b.poisson_reuss});
     }
     log.info("  {:>10.5g} {:>7.4g} {:>10.4g} {:>7.4g} {:>12.5g} {:>9.2g} {:>9.4f} {:>12.5g} {:>9.4f}",
              1e-9 * c[FreeParameter::modulus], ratio, c[FreeParameter::radius_multiplier], bond_poisson,
              1e-9 * young.mean(), 1e-9 * young.deviation(), poisson.mean(), 1e-9 * voigt.mean(),
              voigt_poisson.mean());
-    Json row;
-    row["bond_modulus_pa"] = c[FreeParameter::modulus];
-    row["stiffness_ratio"] = ratio;
-    row["radius_multiplier"] = c[FreeParameter::radius_multiplier];
-    row["bond_poisson_ratio"] = bond_poisson;
-    row["youngs_modulus_gauge_pa"] = young.mean();
-    row["poisson_ratio"] = poisson.mean();
-    rows.push_back(row);
+    rows.push_back({{"bond_modulus_pa", c[FreeParameter::modulus]},
+                    {"stiffness_ratio", ratio},
+                    {"radius_multiplier", c[FreeParameter::radius_multiplier]},
+                    {"bond_poisson_ratio", bond_poisson},
+                    {"youngs_modulus_gauge_pa", young.mean()},
+                    {"poisson_ratio", poisson.mean()}});
   }
   table.finish();
   return rows;

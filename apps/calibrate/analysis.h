@@ -19,12 +19,11 @@ struct Analysis {
   // "tensile strength +0.71, shear strength +0.71": changes by half along which no goal moves by its
   // tolerance.
   std::vector<std::string> undetermined;
+  // Of the goals beyond their tolerance: what was wanted, the nearest, and which goal pulls against it: with
+  // g = J^T r of each goal's own rows, whose sum is zero where the search rests, that with the most negative
+  // product with its g.
+  std::vector<std::string> missed;
 };
-Analysis analyse(const Goals &goals, double tolerance, const Sensitivities &at);
-
-// Of the goals beyond their tolerance: what was wanted, the nearest, and which goal pulls against it: with g
-// = J^T r of each goal's own rows, whose sum is zero where the search rests, that with the most negative
-// product with its g.
-std::vector<std::string> missed(const Goals &goals, const Found &found);
+Analysis analyse(const Goals &goals, const Found &found);
 
 } // namespace platen::apps

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include "apps/calibrate/calibrate_section.h"
 
 namespace platen::apps {
 namespace {
@@ -16,8 +15,15 @@ bool may_flow(TargetKind kind) {
 }
 
 int order_of(const Goal &goal) { // the longest first
-  if (goal.elastic()) return 2;
-  return goal.target.kind == TargetKind::strength_at_pressure ? 0 : 1;
+  if (goal.is_elastic()) return 2;
+  return goal.kind == TargetKind::strength_at_pressure ? 0 : 1;
+}
+
+// NaN where a run of it came to no end.
+double number(const Goal &goal, const TrialResult &own, const TrialResult &other) {
+  if (goal.curve) return own.curve.empty() ? not_given : root_mean_square(goal.curve->misses(own.curve));
+  const double value = own.number(goal.figure);
+  return goal.kind == TargetKind::ratio ? value / other.number(goal.figure) : value;
 }
 
 } // namespace
@@ -25,33 +31,27 @@ int order_of(const Goal &goal) { // the longest first
 Goals::Goals(const Scene &scene) : asked_(calibrate_of(scene)) {
   for (const Target &target : asked_.targets)
     add(target);
-  for (const TargetKind kind : {TargetKind::young_modulus, TargetKind::poisson_ratio})
-    if (std::none_of(goals_.begin(), goals_.end(), [&](const Goal &g) { return g.target.kind == kind; }))
-      add(elastic_target(kind, not_given)); // watched
+  for (const char *watched : {"young modulus", "poisson ratio"})
+    if (const Target target = target_of(watched); !asked_.wants({target.kind})) add(target);
   std::vector<Goal *> order;
   for (Goal &goal : goals_)
     order.push_back(&goal);
   std::stable_sort(order.begin(), order.end(),
                    [](const Goal *a, const Goal *b) { return order_of(*a) < order_of(*b); });
   for (Goal *goal : order) {
-    const bool ratio = goal->target.kind == TargetKind::ratio;
-    goal->test = goal->other = place_of(*goal, goal->target.entries, goal->key);
-    if (ratio) goal->other = place_of(*goal, goal->target.over, goal->key + "_over");
+    goal->test = goal->other = place_of(*goal, goal->entries, goal->key);
+    if (goal->kind == TargetKind::ratio) goal->other = place_of(*goal, goal->over, goal->key + "_over");
   }
 }
 
 void Goals::add(const Target &target) {
-  Goal goal;
-  goal.target = target;
-  if (target.kind == TargetKind::curve) goal.curve = read_target_curve(target.file);
-  goal.words = target.words();
-  goal.unit = target.unit();
-  goal.key = target.key();
+  Goal goal{target, 0, 0, {}};
+  if (target.kind == TargetKind::curve) goal.curve = read_curve(target.file);
   const auto taken = [&] {
     return std::any_of(goals_.begin(), goals_.end(), [&](const Goal &g) { return g.key == goal.key; });
   };
   for (int count = 2; taken(); ++count)
-    goal.key = target.key() + "_" + std::to_string(count);
+    goal.key = target.key + "_" + std::to_string(count);
   goals_.push_back(std::move(goal));
 }
 
@@ -61,45 +61,26 @@ std::size_t Goals::place_of(const Goal &goal, const std::vector<std::string> &en
   const double strain = goal.curve ? goal.curve->last_strain() : 0;
   const bool of_gauge = goal.curve && goal.curve->of_gauge;
   const auto serves = [&](const SpecimenTest &there) {
-    return there.program == goal.target.program && there.entries == entries &&
+    return there.program == goal.program && there.entries == entries &&
            (strain == 0 || there.curve_strain == 0 ||
             (there.curve_strain == strain && there.curve_of_gauge == of_gauge));
   };
   auto test = std::find_if(tests_.begin(), tests_.end(), serves);
   if (test == tests_.end()) {
     test = tests_.insert(test, SpecimenTest());
-    test->program = goal.target.program, test->entries = entries;
+    test->program = goal.program, test->entries = entries;
     if (test->loads()) test->name = name;
   }
   if (strain > 0) test->curve_strain = strain, test->curve_of_gauge = of_gauge;
-  std::vector<std::string> &figures = test->figures;
-  const std::string &figure = goal.target.figure;
-  if (!figure.empty() && std::find(figures.begin(), figures.end(), figure) == figures.end())
-    figures.push_back(figure);
+  if (!goal.figure.empty() && !holds(test->figures, goal.figure)) test->figures.push_back(goal.figure);
   return static_cast<std::size_t>(test - tests_.begin());
 }
 
-std::vector<std::size_t> Goals::wanted() const {
+std::vector<std::size_t> Goals::wanted(bool elastic_alone) const {
   std::vector<std::size_t> places;
   for (std::size_t k = 0; k < goals_.size(); ++k)
-    if (goals_[k].wanted()) places.push_back(k);
+    if (goals_[k].wanted() && (goals_[k].is_elastic() || !elastic_alone)) places.push_back(k);
   return places;
-}
-
-std::vector<std::size_t> Goals::wanted_elastic() const {
-  std::vector<std::size_t> places = wanted();
-  places.erase(
-      std::remove_if(places.begin(), places.end(), [&](std::size_t k) { return !goals_[k].elastic(); }),
-      places.end());
-  return places;
-}
-
-// NaN where a run of it came to no end.
-double Goals::number(const Goal &goal, const TrialResult &r, const TrialResult &other) {
-  if (goal.curve)
-    return r.curve.empty() ? not_given : root_mean_square(misses_of_curve(*goal.curve, r.curve));
-  const double own = r.number(goal.target.figure);
-  return goal.target.kind == TargetKind::ratio ? own / other.number(goal.target.figure) : own;
 }
 
 Measured corrected(Measured m, const Correction &by) {
@@ -112,8 +93,7 @@ Measured corrected(Measured m, const Correction &by) {
 }
 
 Measured Goals::measured(const std::vector<TrialResult> &results, bool elastic_alone) const {
-  Measured m;
-  m.numbers.resize(goals_.size()), m.curves.resize(goals_.size());
+  Measured m(goals_.size());
   const std::size_t stride = elastic_alone ? 1 : tests_.size();
   for (std::size_t first = 0; first < results.size(); first += stride) {
     const auto of = [&](std::size_t test) -> const TrialResult & {
@@ -122,7 +102,7 @@ Measured Goals::measured(const std::vector<TrialResult> &results, bool elastic_a
     m.platen_modulus.add(of(elastic_test()).number("youngs_modulus_platen_pa"));
     for (std::size_t k = 0; k < goals_.size(); ++k) {
       const Goal &goal = goals_[k];
-      if (elastic_alone && !goal.elastic()) continue;
+      if (elastic_alone && !goal.is_elastic()) continue;
       m.numbers[k].add(number(goal, of(goal.test), of(goal.other)));
       const std::vector<double> &curve = of(goal.test).curve;
       if (!goal.curve || curve.empty()) continue;
@@ -141,20 +121,20 @@ Measured Goals::measured(const std::vector<TrialResult> &results, bool elastic_a
 
 double Goals::miss(std::size_t k, const Measured &m) const {
   const Goal &goal = goals_[k];
-  if (!goal.curve) return m.numbers[k].mean() / goal.target.value - 1;
-  return m.curves[k].empty() ? not_given : root_mean_square(misses_of_curve(*goal.curve, m.curves[k]));
+  if (!goal.curve) return m.numbers[k].mean() / goal.value - 1;
+  return m.curves[k].empty() ? not_given : root_mean_square(goal.curve->misses(m.curves[k]));
 }
 
 bool Goals::met(std::size_t k, const Measured &m) const {
-  return std::abs(miss(k, m)) <= goals_[k].target.tolerance;
+  return std::abs(miss(k, m)) <= goals_[k].tolerance;
 }
 
 bool Goals::surely_met(std::size_t k, const Measured &m) const {
   constexpr double errors = 2, least = 0.25; // standard errors; of the tolerance
-  const double tolerance = goals_[k].target.tolerance,
-               error = goals_[k].curve ? 0 : std::abs(m.numbers[k].error_of_mean() / goals_[k].target.value);
-  const double margin = std::isnan(error) ? 0 : errors * error;
-  return std::abs(miss(k, m)) <= std::max(tolerance - margin, least * tolerance);
+  const Goal &goal = goals_[k];
+  const double error = goal.curve ? 0 : std::abs(m.numbers[k].error_of_mean() / goal.value),
+               margin = std::isnan(error) ? 0 : errors * error;
+  return std::abs(miss(k, m)) <= std::max(goal.tolerance - margin, least * goal.tolerance);
 }
 
 // Packings that are stronger than others are so with other bonds too: what the further ones differ by at one
@@ -186,23 +166,20 @@ Correction Goals::correction(const std::vector<Measured> &training,
 }
 
 double Goals::scale(std::size_t k) const {
-  const Goal &goal = goals_[k];
-  const double points = goal.curve ? curve_points : 1;
-  return std::sqrt(1 / points) * asked_.tolerance / goal.target.tolerance;
+  return std::sqrt(1 / static_cast<double>(goals_[k].rows())) * asked_.tolerance / goals_[k].tolerance;
 }
 
 Eigen::VectorXd Goals::responses(const std::vector<std::size_t> &goals, const Measured &m) const {
   std::vector<double> all;
   for (const std::size_t k : goals) {
     const Goal &goal = goals_[k];
-    double miss = this->miss(k, m);
-    if (std::isnan(miss) && !may_flow(goal.target.kind)) return {};
-    if (std::isnan(miss)) miss = without_peak - 1;
-    if (goal.curve)
-      for (const double one : misses_of_curve(*goal.curve, m.curves[k]))
-        all.push_back(scale(k) * one);
-    else
-      all.push_back(scale(k) * (goal.has_logarithm() ? std::log1p(miss) : miss));
+    double off = miss(k, m);
+    if (std::isnan(off) && !may_flow(goal.kind)) return {};
+    if (std::isnan(off)) off = without_peak - 1;
+    std::vector<double> rows{goal.has_logarithm() ? std::log1p(off) : off};
+    if (goal.curve) rows = goal.curve->misses(m.curves[k]);
+    for (const double one : rows)
+      all.push_back(scale(k) * one);
   }
   return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }

@@ -7,30 +7,25 @@
 #include <string>
 #include <vector>
 
-#include "apps/calibrate/calibrate_section.h"
-#include "apps/calibrate/target_curve.h"
-#include "apps/calibrate/trial.h"
+#include "apps/calibrate/trials.h"
 #include "apps/output/seed_statistics.h"
 
 namespace platen::apps {
 
-struct Goal {
-  Target target;                   // without a value: only watched
-  std::size_t test = 0, other = 0; // places of its tests; the other one's strength divides
-  std::string key, words;          // of summary.json and the screen
-  double unit = 1;                 // that the screen counts in
-  std::optional<TargetCurve> curve;
+struct Goal : Target {             // without a value: only watched
+  std::size_t test = 0, other = 0; // places of its tests; the figure of the other one divides
+  std::optional<Curve> curve;
 
-  bool wanted() const { return given(target.value) || curve; }
+  bool wanted() const { return given(value) || curve; }
   bool has_logarithm() const { // others may be negative, or zero
-    return target.kind != TargetKind::poisson_ratio && target.kind != TargetKind::secant_ratio &&
-           target.kind != TargetKind::other;
+    return kind != TargetKind::poisson_ratio && kind != TargetKind::secant_ratio && kind != TargetKind::other;
   }
-  bool elastic() const { return target.is_elastic(); }
+  Eigen::Index rows() const { return curve ? curve_points : 1; } // of the responses
 };
 
 // Over the packings, by goal. Of a curve: root mean squares of its misses, and the mean stresses (Pa).
 struct Measured {
+  explicit Measured(std::size_t goals = 0) : numbers(goals), curves(goals) {}
   std::vector<SeedStatistics> numbers;
   std::vector<std::vector<double>> curves;
   SeedStatistics platen_modulus; // Pa
@@ -56,9 +51,8 @@ public:
   const std::vector<Goal> &all() const { return goals_; }
   const std::vector<SpecimenTest> &tests() const { return tests_; } // the longest first, elastic last
   std::size_t elastic_test() const { return tests_.size() - 1; }
-  // The places of those that are wanted; of those that static solves tell.
-  std::vector<std::size_t> wanted() const;
-  std::vector<std::size_t> wanted_elastic() const;
+  // The places of those that are wanted, or of those of them that static solves tell.
+  std::vector<std::size_t> wanted(bool elastic_alone = false) const;
 
   // `results`: of one packing after the other, all tests of each (or the elastic one alone).
   Measured measured(const std::vector<TrialResult> &results, bool elastic_alone = false) const;
@@ -71,19 +65,17 @@ public:
   bool surely_met(std::size_t goal, const Measured &measured) const;
   // Of the mean over `training` and further packings, each measured at the choice of the training beside it.
   Correction correction(const std::vector<Measured> &training, const std::vector<Measured> &further) const;
-  // What a search makes small, `rows(goal)` after each other of each goal: logarithms of measured over wanted
+  // What a search makes small, the rows of each goal after each other: logarithms of measured over wanted
   // numbers (of what may be negative or zero, as Poisson's ratio, the relative difference), differences of a
   // curve's points; in multiples of the goal's tolerance over Calibrate/Tolerance. A specimen that comes to
   // no peak counts as twice too strong where pressure or friction hold it; empty where another one comes to
   // none.
   Eigen::VectorXd responses(const std::vector<std::size_t> &goals, const Measured &measured) const;
-  Eigen::Index rows(std::size_t goal) const { return goals_[goal].curve ? curve_points : 1; }
   double scale(std::size_t goal) const; // of its responses
 
 private:
   void add(const Target &target);
   std::size_t place_of(const Goal &goal, const std::vector<std::string> &entries, const std::string &name);
-  static double number(const Goal &goal, const TrialResult &own, const TrialResult &other);
 
   const Calibrate &asked_;
   std::vector<Goal> goals_;

@@ -2,98 +2,40 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <numeric>
 #include <optional>
 #include <sstream>
 
 #include "apps/calibrate/abacus.h"
-#include "apps/calibrate/calibrate_section.h"
-#include "apps/calibrate/expected_pace.h"
+#include "apps/calibrate/expected_tests.h"
 #include "apps/calibrate/found_report.h"
 #include "apps/calibrate/trials.h"
 #include "apps/output/file.h"
 #include "apps/output/machine.h"
-#include "apps/output/progress.h"
 #include "apps/output/stop_signal.h"
-#include "apps/programs.h"
 #include "apps/run/app_output.h"
 #include "apps/run/needs.h"
 #include "apps/run/problem_setup.h"
-#include "apps/run/quasi_static.h"
 #include "apps/run/specimen_setup.h"
-#include "apps/scene/parameters.h"
 #include "apps/scene/shell.h"
-#include "apps/scene/units.h"
 #include "apps/scene/version.h"
 
 namespace platen::apps {
 namespace {
 
-// Each test is a scene of its own: what it cannot be is refused before anything runs. Returns what all tests
-// of a packing take by counting, to their largest strains, seconds of one core; those that cannot be counted
-// 0.
-double require_tests(const Scene &scene, const CommandLine &command, const Goals &goals) {
-  constexpr double threads = 2; // that counted_costs supposes
-  std::vector<double> seconds(goals.tests().size(), 0);
-  for (const Goal &goal : goals.all())
-    for (const std::size_t place : {goal.test, goal.other}) {
-      const SpecimenTest &test = goals.tests()[place];
-      if (!test.loads()) continue;
-      try {
-        const Scene led_to =
-            read_scene(command.scene, entries_of(scene, command, test, choice_of(scene), scene.general.seed),
-                       program(test.program));
-        for (const std::string &note : led_to.notes)
-          for (const std::string &entry : test.entries)
-            if (note.find(": note: " + entry.substr(0, entry.find(" =")) + " =") != std::string::npos)
-              throw InputError(note);
-        const double counted = threads * counted_costs(led_to).seconds;
-        seconds[place] = std::isfinite(counted) ? counted : 0;
-      } catch (const InputError &error) {
-        scene.parameters->refuse(goal.target.entry,
-                                 std::string("leads to a test that cannot be run:\n") + error.what());
-      }
-    }
-  return std::accumulate(seconds.begin(), seconds.end(), 0.0);
-}
-
-// How many wave crossings the tests of wanted strengths are to take, and what helps where they are too few.
-std::string pace_of_tests(const Scene &scene, const CommandLine &command, const Goals &goals) {
-  std::string text;
-  for (const ExpectedPace &one : expected_paces(scene, command, goals)) {
-    text += fmt::format("  {}: at {:.3g} m/s about {:.0f} wave crossings to the peak, {:g} at least\n",
-                        one.test, one.rate, one.transits, fewest_transits);
-    if (one.transits < fewest_transits)
-      text += fmt::format(
-          "    too fast to be quasi-static: such trials do not count. A lower {} helps: {:.2g} "
-          "m/s in this test\n",
-          one.entry, one.rate * one.transits / fewest_transits);
-  }
-  return text;
-}
-
-std::string description(const Scene &scene, const CommandLine &command, const Goals *goals) {
+std::string description(const Scene &scene, const CommandLine &command, const std::optional<Goals> &goals) {
   const Calibrate &c = calibrate_of(scene);
-  const double seconds = goals != nullptr ? require_tests(scene, command, *goals) : 0,
-               packings = c.most_trials * c.seeds + c.verification_seeds;
-  const std::string time = seconds > 0
-                               ? fmt::format("  {} trials at most: {} of one core, to the largest strains\n",
-                                             c.most_trials, duration_text(seconds * packings))
-                               : "";
   return title_of(scene) +
          fmt::format("\n  {}: {} seeds to calibrate on, {} to judge by\n", word_of(calibrate_modes, c.mode),
-                     c.seeds, goals != nullptr ? c.verification_seeds : 0) +
-         (goals != nullptr ? wishes(*goals) + pace_of_tests(scene, command, *goals) + time : "");
+                     c.seeds, goals ? c.verification_seeds : 0) +
+         (goals ? wishes(*goals) + expected_tests(scene, command, *goals) : "");
 }
 
 void tell_bounds(const Scene &scene, Trials &trials, RunLog &log, Json &s) {
   const dem::Specimen &first = trials.packing(scene.general.seed);
-  const dem::NetworkModuli b = bounds_of(scene, first);
+  const dem::NetworkModuli b = network_bounds(scene, first);
   log.info(
-      "  of the bonds alone, as the scene has them: E at most {:.5g} GPa (Voigt, nu {:.4f}), about {:.5g} "
-      "GPa "
-      "(Reuss, nu {:.4f})",
+      "  of the bonds alone, as the scene has them: E at most {:.5g} GPa (Voigt, nu {:.4f}), "
+      "about {:.5g} GPa (Reuss, nu {:.4f})",
       1e-9 * b.young_voigt, b.poisson_voigt, 1e-9 * b.young_reuss, b.poisson_reuss);
   s["particles"] = first.size();
   s["bounds"] = {{"young_voigt_pa", b.young_voigt},
@@ -123,17 +65,14 @@ std::vector<Measured> measure(const Goals &goals, const std::vector<unsigned lon
 }
 
 // One trial a line: what was changed, what came of it.
-void tell_trial(const Goals &goals, const std::vector<FreeParameter> &free, const Choice &choice,
+void tell_trial(const Goals &goals, const std::vector<ParameterFacts> &free, const Choice &choice,
                 const Measured &m, bool elastic, int trial, RunLog &log) {
   std::string text = elastic ? "  static solve:" : fmt::format("  trial {}:", trial);
-  for (const FreeParameter parameter : free)
-    if (const ParameterFacts facts = facts_of(goals.asked(), parameter); !elastic || facts.elastic)
-      text += " " + text_of(facts, choice[parameter]) + ",";
+  for (const ParameterFacts &parameter : free)
+    if (!elastic || parameter.elastic) text += " " + text_of(parameter, choice[parameter.parameter]) + ",";
   text.back() = ':';
-  for (const std::size_t k : elastic ? goals.wanted_elastic() : goals.wanted())
-    text += fmt::format(" {} {};", goals.all()[k].words,
-                        goals.all()[k].curve ? fmt::format("{:.4g}", goals.miss(k, m))
-                                             : text_of(m.numbers[k], goals.all()[k].unit));
+  for (const std::size_t k : goals.wanted(elastic))
+    text += fmt::format(" {} {};", goals.all()[k].words(), measured_text(goals, k, m));
   text.back() = '.';
   log.info("{}", text);
 }
@@ -143,8 +82,8 @@ void tell_trial(const Goals &goals, const std::vector<FreeParameter> &free, cons
 Judged find(const Scene &scene, const Goals &goals, Trials &trials, RunLog &log) {
   constexpr std::size_t most_rounds = 3;
   const std::vector<unsigned long> seeds = training_seeds(scene);
-  const std::vector<FreeParameter> free = parameters_of(scene);
-  const bool elastic = goals.wanted_elastic().size() == goals.wanted().size();
+  const std::vector<ParameterFacts> free = parameters_of(scene);
+  const bool elastic = goals.wanted(true) == goals.wanted();
   int trial = 0;
   const Measurement test = [&](const std::vector<Choice> &choices, bool elastic_alone) {
     std::vector<Measured> all = measure(goals, seeds, choices, elastic_alone, trials, log);
@@ -160,7 +99,7 @@ Judged find(const Scene &scene, const Goals &goals, Trials &trials, RunLog &log)
     unseen.push_back(measure(goals, others, {found.choice}, elastic, trials, log).front());
     std::string missed;
     for (const std::size_t k : goals.wanted())
-      if (!goals.met(k, unseen.back())) missed += (missed.empty() ? "" : ", ") + goals.all()[k].words;
+      if (!goals.met(k, unseen.back())) missed += (missed.empty() ? "" : ", ") + goals.all()[k].words();
     if (missed.empty() || unseen.size() >= most_rounds) return std::nullopt;
     log.info("  on {} packings that were not searched on {} missed: the search goes on by their mean too",
              others.size(), missed + (missed.find(',') == std::string::npos ? " is" : " are"));
@@ -169,6 +108,7 @@ Judged find(const Scene &scene, const Goals &goals, Trials &trials, RunLog &log)
   Judged judged;
   judged.found = search(scene, goals, test, judge);
   if (trained.empty()) judge(judged.found); // static solves alone
+  judged.analysis = analyse(goals, judged.found);
   judged.training = trained.back();
   if (!unseen.empty()) judged.unseen = unseen.back();
   return judged;
@@ -183,9 +123,8 @@ void write_found(const CommandLine &command, const Scene &scene, const Goals &go
   if (!scene.bond.calibrated.figures.empty())
     overrides.emplace_back("Bond/Calibrated figures="); // of other bonds
   const Scene found = read_scene(command.scene, overrides, *scene.program);
-  const std::string comment =
-      fmt::format("Found by platen-calibrate from {} ({}).\n{}{}", found.name, version_line(),
-                  table_of(goals, judged), findings(goals, scene, judged));
+  const std::string comment = fmt::format("Found by platen-calibrate from {} ({}).\n{}{}", found.name,
+                                          version_line(), table_of(goals, judged), findings(goals, judged));
   std::string text;
   std::istringstream lines(comment);
   for (std::string line; std::getline(lines, line);)
@@ -198,7 +137,7 @@ void write_found(const CommandLine &command, const Scene &scene, const Goals &go
 int run_calibrate(const CommandLine &command, const Scene &scene) {
   std::optional<Goals> goals; // a curve that is none is found before anything is written
   if (calibrate_of(scene).mode == CalibrateMode::search) goals.emplace(scene);
-  const std::string said = description(scene, command, goals ? &*goals : nullptr);
+  const std::string said = description(scene, command, goals);
   if (command.dry_run) {
     fmt::print("{}", said);
     return status_done;
@@ -220,15 +159,15 @@ int run_calibrate(const CommandLine &command, const Scene &scene) {
     if (mode == CalibrateMode::abacus) s["abacus"] = make_abacus(scene, output.paths, trials, output.log);
     if (goals) {
       const Judged judged = find(scene, *goals, trials, output.log);
-      tell_found(*goals, scene, judged, s);
+      tell_found(*goals, judged, s);
       unmet = gaps(*goals, judged);
       write_curves(*goals, judged, output.paths);
       write_found(command, scene, *goals, judged, output);
       std::string found = "calibrated:";
-      for (const FreeParameter parameter : parameters_of(scene))
-        found += " " + text_of(facts_of(goals->asked(), parameter), judged.found.choice[parameter]) + ",";
+      for (const ParameterFacts &parameter : parameters_of(scene))
+        found += " " + text_of(parameter, judged.found.choice[parameter.parameter]) + ",";
       found.back() = '\n';
-      output.log.info("{}{}{}", found, table_of(*goals, judged), findings(*goals, scene, judged));
+      output.log.info("{}{}{}", found, table_of(*goals, judged), findings(*goals, judged));
     }
     s["trials"] = trials.made();
     s["failed_trials"] = trials.failed();

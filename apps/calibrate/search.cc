@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/calibrate/calibrate_section.h"
 #include "apps/scene/errors.h"
 
 namespace platen::apps {
@@ -26,31 +25,81 @@ class Pass {
 public:
   Pass(const Scene &scene, const Goals &goals, const Measurement &test, Space space,
        std::vector<std::size_t> of, bool elastic, bool exact)
-      : scene_(scene),
+      : asked_(calibrate_of(scene)),
         goals_(goals),
         test_(test),
         space_(std::move(space)),
         of_(std::move(of)),
         elastic_(elastic),
         exact_(exact),
-        model_(space_.parameters(exact), space_.guess(goals, of_), elastic ? elastic_same : same) {}
+        model_(without_trials()) {}
 
   Found operator()();
+
   // Goes on with what was tried, corrected. False where no trial is left.
-  bool correct(const Correction &by);
+  bool correct(const Correction &by) {
+    if (trials_ >= most()) return false;
+    correction_ = by;
+    model_ = without_trials();
+    met_.reset();
+    for (std::size_t k = 0; k < tried_.size(); ++k)
+      learn(k);
+    settle();
+    return true;
+  }
 
 private:
+  struct Tried {
+    Eigen::VectorXd at;
+    Choice choice;
+    Measured measured; // not corrected
+  };
+
   bool done() const { return met_.has_value(); }
-  bool ends(const Measured &measured) const;
-  int most() const { return elastic_ ? most_elastic : calibrate_of(scene_).most_trials; }
-  bool bends_a_curve() const; // by a parameter whose effect on it no formula tells
-  void learn(std::size_t trial);
-  void settle();
+  int most() const { return elastic_ ? most_elastic : asked_.most_trials; }
+  ResponseModel without_trials() const {
+    return {space_.parameters(exact_), space_.guess(goals_, of_), elastic_ ? elastic_same : same};
+  }
+  Measured measured(std::size_t trial) const { return corrected(tried_[trial].measured, correction_); }
+  template <class Holds>
+  bool all_goals(const Holds &hold) const {
+    return std::all_of(of_.begin(), of_.end(), hold);
+  }
+
+  // How a curve goes with a parameter that bends it no formula tells.
+  bool takes_differences() const {
+    const bool bends_a_curve = space_.free(FreeParameter::compression_limits) &&
+                               !all_goals([&](std::size_t k) { return !goals_.all()[k].curve; });
+    return !elastic_ && (asked_.measures_differences() || bends_a_curve);
+  }
+
+  void learn(std::size_t trial) {
+    const Measured m = measured(trial);
+    model_.add(tried_[trial].at, goals_.responses(of_, m));
+    const bool ends = all_goals([&](std::size_t k) {
+      return elastic_ ? std::abs(goals_.miss(k, m)) <= elastic_precision : goals_.surely_met(k, m);
+    });
+    if (!done() && ends) met_ = trial;
+  }
+
+  // Half of the trials are for a margin. After them the tolerance itself is enough: what is left is for
+  // packings that miss all the same.
+  void settle() {
+    if (done() || elastic_ || 2 * trials_ <= most()) return;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t trial = 0; trial < tried_.size(); ++trial) {
+      const Measured m = measured(trial);
+      const double size = goals_.responses(of_, m).squaredNorm();
+      if (all_goals([&](std::size_t k) { return goals_.met(k, m); }) && size < least)
+        least = size, met_ = trial;
+    }
+  }
+
   bool try_all(const std::vector<Eigen::VectorXd> &x);
   void take_differences(const Eigen::VectorXd &x, double size);
   Found found() const;
 
-  const Scene &scene_;
+  const Calibrate &asked_;
   const Goals &goals_;
   const Measurement &test_;
   Space space_;
@@ -59,26 +108,11 @@ private:
   std::optional<std::size_t> met_; // the trial that ended it
   int differences_ = 0;            // how often they were taken
   ResponseModel model_;
-  std::vector<Eigen::VectorXd> at_;
-  std::vector<Choice> tried_;
-  std::vector<Measured> measured_; // as measured
+  std::vector<Tried> tried_; // that told something
   Correction correction_;
   int trials_ = 0;
   std::string too_fast_; // why the first trial that told nothing was no quasi-static one
 };
-
-bool Pass::ends(const Measured &measured) const {
-  return std::all_of(of_.begin(), of_.end(), [&](std::size_t k) {
-    return elastic_ ? std::abs(goals_.miss(k, measured)) <= elastic_precision
-                    : goals_.surely_met(k, measured);
-  });
-}
-
-bool Pass::bends_a_curve() const {
-  return space_.free(FreeParameter::compression_limits) &&
-         std::any_of(of_.begin(), of_.end(),
-                     [&](std::size_t k) { return goals_.all()[k].curve.has_value(); });
-}
 
 // Whether any of them tells something.
 bool Pass::try_all(const std::vector<Eigen::VectorXd> &x) {
@@ -89,59 +123,25 @@ bool Pass::try_all(const std::vector<Eigen::VectorXd> &x) {
   trials_ += static_cast<int>(x.size());
   bool told = false;
   for (std::size_t k = 0; k < x.size(); ++k) {
-    const Eigen::VectorXd responses = goals_.responses(of_, measured[k]);
-    if (responses.size() == 0) {
+    if (goals_.responses(of_, measured[k]).size() == 0) {
       if (too_fast_.empty()) too_fast_ = measured[k].too_fast;
       continue;
     }
     told = true;
-    at_.push_back(x[k]), tried_.push_back(choices[k]), measured_.push_back(measured[k]);
+    tried_.push_back({x[k], choices[k], measured[k]});
     learn(tried_.size() - 1);
   }
   return told;
 }
 
-void Pass::learn(std::size_t trial) {
-  const Measured measured = corrected(measured_[trial], correction_);
-  model_.add(at_[trial], goals_.responses(of_, measured));
-  if (!done() && ends(measured)) met_ = trial;
-}
-
-// Half of the trials are for a margin. After them the tolerance itself is enough: what is left is for
-// packings that miss all the same.
-void Pass::settle() {
-  if (done() || elastic_ || 2 * trials_ <= most()) return;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t trial = 0; trial < tried_.size(); ++trial) {
-    const Measured measured = corrected(measured_[trial], correction_);
-    const double size = goals_.responses(of_, measured).squaredNorm();
-    const bool met =
-        std::all_of(of_.begin(), of_.end(), [&](std::size_t k) { return goals_.met(k, measured); });
-    if (met && size < least) least = size, met_ = trial;
-  }
-}
-
-bool Pass::correct(const Correction &by) {
-  if (trials_ >= most()) return false;
-  correction_ = by;
-  model_ =
-      ResponseModel(space_.parameters(exact_), space_.guess(goals_, of_), elastic_ ? elastic_same : same);
-  met_.reset();
-  for (std::size_t k = 0; k < tried_.size(); ++k)
-    learn(k);
-  settle();
-  return true;
-}
-
 // One parameter after the other, away from the nearer bound; all at once, so that threads share them.
 void Pass::take_differences(const Eigen::VectorXd &x, double size) {
-  const std::vector<SearchParameter> parameters = space_.parameters(exact_);
   std::vector<Eigen::VectorXd> all;
-  for (std::size_t k = 0; k < parameters.size(); ++k) {
-    const auto place = static_cast<Eigen::Index>(k);
+  for (const SearchParameter &parameter : space_.parameters(exact_)) {
     Eigen::VectorXd to = x;
-    const double up = parameters[k].high - x[place], down = x[place] - parameters[k].low;
-    to[place] += up >= down ? std::min(size, up) : -std::min(size, down);
+    double &moved = to[static_cast<Eigen::Index>(all.size())];
+    const double up = parameter.high - moved, down = moved - parameter.low;
+    moved += up >= down ? std::min(size, up) : -std::min(size, down);
     all.push_back(to);
   }
   try_all(all);
@@ -157,12 +157,11 @@ Found Pass::operator()() {
       x = space_.scaled(*x, FreeParameter::tensile_strength, weaker);
       continue;
     }
-    const bool differences = !elastic_ && (calibrate_of(scene_).measures_differences() || bends_a_curve());
-    if (differences && differences_ == 0 && !done()) take_differences(*x, difference);
+    if (takes_differences() && differences_ == 0 && !done()) take_differences(*x, difference);
     settle();
     x = model_.next();
-    if (x || done() || !differences || differences_ > 1 || trials_ >= most()) continue;
-    take_differences(at_.at(model_.best()), near_difference); // the slopes there may be others
+    if (x || done() || !takes_differences() || differences_ > 1 || trials_ >= most()) continue;
+    take_differences(tried_.at(model_.best()).at, near_difference); // the slopes there may be others
     x = model_.next();
   }
   if (tried_.empty() && !too_fast_.empty())
@@ -179,32 +178,29 @@ Found Pass::operator()() {
 
 Found Pass::found() const {
   const std::size_t best = met_.value_or(model_.best());
-  Found to;
-  to.choice = tried_[best], to.measured = corrected(measured_[best], correction_);
-  to.trials = elastic_ ? 0 : trials_;
-  to.at_bounds = space_.at_bounds(to.choice);
-  to.sensitivities = {of_, space_.free(), space_.by_logarithms(model_.slopes(), to.choice),
-                      goals_.responses(of_, to.measured), differences_ > 0};
-  return to;
+  const Choice &choice = tried_[best].choice;
+  return {choice,
+          measured(best),
+          elastic_ ? 0 : trials_,
+          {of_, space_.free(), space_.by_logarithms(model_.slopes(), choice),
+           goals_.responses(of_, measured(best)), differences_ > 0},
+          space_.at_bounds(choice)};
 }
 
 // Strengths of brittle bonds are proportional to theirs.
 bool proportional(const Scene &scene) {
   const Calibrate &c = calibrate_of(scene);
-  const bool strengths = std::none_of(c.targets.begin(), c.targets.end(), [](const Target &target) {
-    return target.kind == TargetKind::strain_at_peak || target.kind == TargetKind::curve;
-  });
-  return strengths && c.free.empty() && !c.measures_differences() &&
-         scene.bond.list("compression_limits").empty();
+  return !c.wants({TargetKind::strain_at_peak, TargetKind::curve}) && c.free.empty() &&
+         !c.measures_differences() && !has_parameter(scene, FreeParameter::compression_limits);
 }
 
 } // namespace
 
 Found search(const Scene &scene, const Goals &goals, const Measurement &test, const Judge &judge) {
-  std::vector<FreeParameter> free = parameters_of(scene), elastic;
+  std::vector<ParameterFacts> free = parameters_of(scene), elastic;
   std::copy_if(free.begin(), free.end(), std::back_inserter(elastic),
-               [&](FreeParameter parameter) { return facts_of(calibrate_of(scene), parameter).elastic; });
-  const std::vector<std::size_t> wanted = goals.wanted(), by_solves = goals.wanted_elastic();
+               [](const ParameterFacts &parameter) { return parameter.elastic; });
+  const std::vector<std::size_t> wanted = goals.wanted(), by_solves = goals.wanted(true);
   Found found;
   found.choice = choice_of(scene);
   if (!by_solves.empty() && !elastic.empty())

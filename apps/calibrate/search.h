@@ -5,7 +5,6 @@
 #include <functional>
 #include <optional>
 
-#include "apps/calibrate/calibrate_section.h"
 #include "apps/calibrate/space.h"
 
 namespace platen::apps {
@@ -17,7 +16,7 @@ using Measurement =
 // How the responses of the wanted goals go with what is free, at the best trial.
 struct Sensitivities {
   std::vector<std::size_t> goals;
-  std::vector<FreeParameter> free;
+  std::vector<ParameterFacts> free;
   Eigen::MatrixXd slopes; // changes of responses (rows of Goals::responses) by logarithms of the parameters
   Eigen::VectorXd responses; // there
   bool measured = false;     // by differences and trials; else the trials have only corrected a guess

@@ -2,14 +2,12 @@
 set(PLATEN_CALIBRATE_SOURCES
   calibrate/abacus.cc
   calibrate/analysis.cc
-  calibrate/expected_pace.cc
+  calibrate/curve.cc
+  calibrate/expected_tests.cc
   calibrate/found_report.cc
   calibrate/goals.cc
-  calibrate/guess.cc
   calibrate/response_model.cc
   calibrate/run_calibrate.cc
   calibrate/search.cc
   calibrate/space.cc
-  calibrate/target_curve.cc
-  calibrate/trial.cc
   calibrate/trials.cc)

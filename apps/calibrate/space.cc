@@ -4,36 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include "apps/calibrate/calibrate_section.h"
 
 namespace platen::apps {
 namespace {
 
-// Large changes of coordinates, and how much of one is tried at once.
-constexpr double factor_unit = 2.5, moments_unit = 0.6, friction_unit = 1, one_step = 0.35, long_step = 0.5;
-// Of moduli and strengths: factors to what they begin with that no scene asks for.
-constexpr double any_factor = 1e4, scale_step = 10;
-constexpr double largest_friction = 1.0471975511965976; // rad; of an angle that a search may turn
-constexpr double at_bound = 1e-3, on_bound = 1e-9;      // of the room between bounds
+constexpr double any_step = 10;                    // in large changes, of scales whose effect is known
+constexpr double at_bound = 1e-3, on_bound = 1e-9; // of the room between bounds
 // Of the room: what a change is set beside where a number that may be zero is less than that.
 constexpr double least_share = 0.1;
-
-struct Wants {
-  bool young = false, poisson = false, compressive = false, tensile = false, pressure = false, curve = false,
-       any = false;
-  explicit Wants(const Calibrate &c) {
-    for (const Target &t : c.targets) {
-      const TargetKind kind = t.kind;
-      young = young || kind == TargetKind::young_modulus || kind == TargetKind::curve;
-      poisson = poisson || kind == TargetKind::poisson_ratio;
-      compressive = compressive || kind == TargetKind::strength || kind == TargetKind::curve;
-      tensile = tensile || kind == TargetKind::tension;
-      pressure = pressure || kind == TargetKind::strength_at_pressure;
-      curve = curve || kind == TargetKind::curve;
-      any = any || !t.is_elastic();
-    }
-  }
-};
 
 bool bends(const Scene &scene) {
   const std::optional<dem::BondParameters> bond = scene.bond.parameters();
@@ -41,158 +19,232 @@ bool bends(const Scene &scene) {
 }
 
 std::vector<FreeParameter> needed_parameters(const Scene &scene) {
-  const Wants wants(calibrate_of(scene));
-  const bool both = wants.compressive && wants.tensile;
+  const Calibrate &c = calibrate_of(scene);
+  const bool curve = c.wants({TargetKind::curve}),
+             both = c.wants({TargetKind::tension}) && (c.wants({TargetKind::strength}) || curve);
   std::vector<FreeParameter> free;
-  if (wants.young) free.push_back(FreeParameter::modulus);
-  if (wants.poisson)
-    free.push_back(scene.bond.is<dem::CohesiveBeam>() ? FreeParameter::radius_multiplier
-                                                      : FreeParameter::stiffness_ratio);
-  if (wants.any) free.push_back(FreeParameter::tensile_strength);
-  if (both) free.push_back(FreeParameter::shear_strength);
+  const auto need = [&](FreeParameter parameter, bool where) {
+    if (where) free.push_back(parameter);
+  };
+  need(FreeParameter::modulus, c.wants({TargetKind::young_modulus}) || curve);
+  need(scene.bond.is<dem::CohesiveBeam>() ? FreeParameter::radius_multiplier : FreeParameter::stiffness_ratio,
+       c.wants({TargetKind::poisson_ratio}));
+  need(FreeParameter::tensile_strength, c.wants_strengths());
+  need(FreeParameter::shear_strength, both);
   // A curve bends where bonds yield.
-  if (wants.curve && !scene.bond.list("compression_limits").empty())
-    free.push_back(FreeParameter::compression_limits);
+  need(FreeParameter::compression_limits, curve && has_parameter(scene, FreeParameter::compression_limits));
   // Elasto-damage-plastic bonds have neither; without moments there is nothing to count.
-  if (both && bends(scene)) free.push_back(FreeParameter::moment_contribution);
-  if (scene.bond.has("friction_angle") && (both || wants.pressure))
-    free.push_back(FreeParameter::friction_angle);
+  need(FreeParameter::moment_contribution, both && bends(scene));
+  need(FreeParameter::friction_angle, (both || c.wants({TargetKind::strength_at_pressure})) &&
+                                          has_parameter(scene, FreeParameter::friction_angle));
   return free;
+}
+
+// Changes of the logarithm of a strength with each coordinate, as seen of a concrete of parallel bonds
+// (scenes/calibrate_concrete.prm): with the logarithm of shear over tensile strength, the moment contribution
+// and the friction angle (rad). Of a pressure's strength the part grows that is not the pressure's own.
+// Yield, and friction of what has broken, hold what is confined.
+struct StrengthSlopes {
+  FreeParameter parameter;
+  double tension, compression, pressure, ratio; // of one test over another
+};
+constexpr StrengthSlopes strength_slopes[] = {{FreeParameter::tensile_strength, 1, 1, 1, 0},
+                                              {FreeParameter::shear_strength, 0, 0.25, 0.5, 0.5},
+                                              {FreeParameter::moment_contribution, 0, -2.5, -2.5, 0},
+                                              {FreeParameter::friction_angle, 0, 0.1, 0.5, 0.5},
+                                              {FreeParameter::compression_limits, 0, 0, 0.2, 0.2},
+                                              {FreeParameter::contact_friction, 0, 0, 0.2, 0.2}};
+// Poisson's ratio of beams by the logarithm of their radius (docs/theory.md, the abacus of silica).
+constexpr double poisson_by_radius = -0.2;
+constexpr double modulus_by_radius = 2;
+// Of the ready materials (bench/results/materials.md): the larger compressive over tensile strength, the more
+// bonds have broken by 40 % of it. That ratio goes with shear over tensile strength of the bond as above.
+constexpr double secant_by_ratio = 0.25;
+
+// Voigt: E ~ (2 + 3 r)/(4 + r), nu = (1 - r)/(4 + r).
+double elastic_slope(const Target &target, FreeParameter parameter, const Choice &at) {
+  const bool young = target.kind == TargetKind::young_modulus;
+  const double r = at[FreeParameter::stiffness_ratio];
+  switch (parameter) {
+    case FreeParameter::modulus:
+      return young ? 1 : 0;
+    case FreeParameter::stiffness_ratio:
+      return young ? 3 * r / (2 + 3 * r) - r / (4 + r) : -5 * r / ((4 + r) * (4 + r)) / target.value;
+    case FreeParameter::radius_multiplier:
+      return young ? modulus_by_radius : poisson_by_radius / target.value;
+    default:
+      return 0;
+  }
+}
+
+// Of the strength at a pressure, that without one; 1 where none is wanted.
+double share_of(const Goals &goals, const Target &target) {
+  if (target.kind != TargetKind::strength_at_pressure) return 1;
+  for (const Goal &goal : goals.all())
+    if (goal.kind == TargetKind::strength) return std::min(1.0, goal.value / target.value);
+  return 1;
+}
+
+double strength_slope(const Goals &goals, const Target &target, FreeParameter parameter) {
+  if (parameter == FreeParameter::modulus) return target.kind == TargetKind::strain_at_peak ? -1 : 0;
+  for (const StrengthSlopes &slopes : strength_slopes) {
+    if (slopes.parameter != parameter) continue;
+    const double slope = target.kind == TargetKind::tension                ? slopes.tension
+                         : target.kind == TargetKind::ratio                ? slopes.ratio
+                         : target.kind == TargetKind::strength_at_pressure ? slopes.pressure
+                                                                           : slopes.compression;
+    return parameter == FreeParameter::tensile_strength ? slope * share_of(goals, target) : slope;
+  }
+  return 0;
+}
+
+// s(e) = S F(e G/S): stresses in proportion to the strengths S and strains to S over the modulus G.
+double curve_slope(const Curve &curve, FreeParameter parameter, double strain) {
+  const double step = 0.5 * curve.last_strain() / curve_points, from = strain - step,
+               to = std::min(strain + step, curve.last_strain());
+  const double steep = strain * (curve.stress_at(to) - curve.stress_at(from)) / (to - from);
+  if (parameter == FreeParameter::modulus) return steep / curve.largest_stress();
+  if (parameter == FreeParameter::tensile_strength)
+    return (curve.stress_at(strain) - steep) / curve.largest_stress();
+  return 0;
+}
+
+// A number for each row of the goal.
+std::vector<double> slopes_of(const Goals &goals, const Goal &goal, FreeParameter parameter,
+                              const Choice &at) {
+  if (goal.curve) {
+    std::vector<double> slopes;
+    for (std::size_t step = 1; step <= curve_points; ++step)
+      slopes.push_back(
+          curve_slope(*goal.curve, parameter, Curve::strain_of(step, goal.curve->last_strain())));
+    return slopes;
+  }
+  if (goal.kind == TargetKind::other) return {0};
+  if (goal.kind == TargetKind::secant_ratio && parameter == FreeParameter::shear_strength)
+    return {secant_by_ratio};
+  if (goal.is_elastic() || goal.kind == TargetKind::secant_ratio) return {elastic_slope(goal, parameter, at)};
+  return {strength_slope(goals, goal, parameter)};
 }
 
 } // namespace
 
-std::vector<FreeParameter> parameters_of(const Scene &scene) {
+std::vector<ParameterFacts> parameters_of(const Scene &scene) {
   const Calibrate &c = calibrate_of(scene);
-  std::vector<FreeParameter> all = c.free.empty() && c.freed.empty() ? needed_parameters(scene) : c.free;
-  for (std::size_t k = 0; k < c.freed.size(); ++k)
-    all.push_back(static_cast<FreeParameter>(parameter_count + k));
+  const std::vector<ParameterFacts> facts = parameter_facts(c);
+  std::vector<ParameterFacts> all;
+  for (const FreeParameter one : c.free.empty() && c.freed.empty() ? needed_parameters(scene) : c.free)
+    all.push_back(facts[static_cast<std::size_t>(one)]);
+  all.insert(all.end(), facts.begin() + parameter_count, facts.end());
   return Space(scene, choice_of(scene), all).free();
 }
 
-Space::Space(const Scene &scene, const Choice &start, const std::vector<FreeParameter> &free)
-    : asked_(calibrate_of(scene)), start_(start) {
-  for (const FreeParameter parameter : free) {
-    const Axis axis = axis_of(scene, parameter);
-    if (axis.low >= axis.high) continue;
-    free_.push_back(parameter), axes_.push_back(axis);
+Space::Space(const Scene &scene, const Choice &start, const std::vector<ParameterFacts> &free)
+    : start_(start) {
+  for (const ParameterFacts &facts : free) {
+    const Axis axis{facts, bounds_of(scene, facts.parameter, start[facts.parameter])};
+    if (!(axis.room() <= 0)) axes_.push_back(axis);
   }
 }
 
-Space::Axis Space::axis_of(const Scene &scene, FreeParameter parameter) const {
-  const Calibrate &c = calibrate_of(scene);
-  const double own = start_[parameter];
-  if (const auto place = static_cast<std::size_t>(parameter); place >= parameter_count) {
-    const FreedEntry &freed = c.freed[place - parameter_count];
-    if (freed.low > 0) return {true, factor_unit, freed.low, freed.high, one_step};
-    return {false, freed.high - freed.low, freed.low, freed.high, one_step};
-  }
-  const auto or_else = [](double bound, double otherwise) { return given(bound) ? bound : otherwise; };
-  switch (parameter) {
-    case FreeParameter::stiffness_ratio:
-      return {true, factor_unit, c.ratio_low, c.ratio_high, long_step};
-    case FreeParameter::radius_multiplier:
-      return {true, 1, c.multiplier_low, c.multiplier_high, long_step};
-    case FreeParameter::shear_strength:
-      return {true, factor_unit, c.strengths_low, c.strengths_high, one_step};
-    case FreeParameter::moment_contribution:
-      return {false, moments_unit, c.moments_low, or_else(c.moments_high, own), one_step};
-    case FreeParameter::friction_angle: {
-      const bool turned = Wants(c).pressure || !c.free.empty();
-      return {false, friction_unit, or_else(c.friction_low, turned ? 0 : own),
-              or_else(c.friction_high, turned ? largest_friction : own), one_step};
-    }
-    case FreeParameter::compression_limits:
-      return {true, factor_unit, c.limits_low, c.limits_high, one_step};
-    case FreeParameter::contact_friction:
-      return {false, friction_unit, c.contact_friction_low, c.contact_friction_high, one_step};
-    default:
-      return {true, factor_unit, own / any_factor, own * any_factor, scale_step};
-  }
+std::vector<ParameterFacts> Space::free() const {
+  std::vector<ParameterFacts> all;
+  for (const Axis &axis : axes_)
+    all.push_back(axis.facts);
+  return all;
 }
 
-bool Space::free(FreeParameter parameter) const {
-  return std::find(free_.begin(), free_.end(), parameter) != free_.end();
+double Space::Axis::number(const Choice &of) const {
+  const double own = of[facts.parameter];
+  return facts.parameter == FreeParameter::shear_strength ? own / of[FreeParameter::tensile_strength] : own;
 }
 
-std::size_t Space::place(FreeParameter parameter) const {
-  return static_cast<std::size_t>(std::find(free_.begin(), free_.end(), parameter) - free_.begin());
+double Space::Axis::place_of(double number) const {
+  return (facts.logarithm ? std::log(number) : number) / facts.change;
+}
+
+// A search that rests on a bound misses it by round-off: an angle of zero stays zero.
+double Space::Axis::number_at(double coordinate) const {
+  const double value = facts.logarithm ? std::exp(facts.change * coordinate) : facts.change * coordinate;
+  for (const double bound : {bounds.low, bounds.high})
+    if (std::abs(value - bound) < on_bound * room()) return bound;
+  return value;
+}
+
+Eigen::Index Space::place(FreeParameter parameter) const {
+  return std::find_if(axes_.begin(), axes_.end(),
+                      [&](const Axis &axis) { return axis.facts.parameter == parameter; }) -
+         axes_.begin();
 }
 
 Eigen::VectorXd Space::scaled(Eigen::VectorXd x, FreeParameter parameter, double factor) const {
-  const std::size_t k = place(parameter);
-  x[static_cast<Eigen::Index>(k)] += std::log(factor) / axes_[k].unit;
+  const Eigen::Index k = place(parameter);
+  x[k] += std::log(factor) / axes_[static_cast<std::size_t>(k)].facts.change;
   return x;
-}
-
-double Space::number(FreeParameter parameter, const Choice &of) const {
-  return parameter == FreeParameter::shear_strength ? of[parameter] / of[FreeParameter::tensile_strength]
-                                                    : of[parameter];
 }
 
 Choice Space::choice(const Eigen::VectorXd &x) const {
   Choice to = start_;
   double ratio = start_[FreeParameter::shear_strength] / start_[FreeParameter::tensile_strength];
-  for (std::size_t k = 0; k < free_.size(); ++k) {
-    const double coordinate = axes_[k].unit * x[static_cast<Eigen::Index>(k)];
-    const double value = on_its_bound(axes_[k], axes_[k].logarithm ? std::exp(coordinate) : coordinate);
-    (free_[k] == FreeParameter::shear_strength ? ratio : to[free_[k]]) = value;
+  for (Eigen::Index k = 0; k < count(); ++k) {
+    const Axis &axis = axes_[static_cast<std::size_t>(k)];
+    const bool of_ratio = axis.facts.parameter == FreeParameter::shear_strength;
+    (of_ratio ? ratio : to[axis.facts.parameter]) = axis.number_at(x[k]);
   }
   if (free(FreeParameter::tensile_strength) || free(FreeParameter::shear_strength))
     to[FreeParameter::shear_strength] = ratio * to[FreeParameter::tensile_strength];
   return to;
 }
 
-// A search that rests on a bound misses it by round-off: an angle of zero stays zero.
-double Space::on_its_bound(const Axis &axis, double value) {
-  for (const double bound : {axis.low, axis.high})
-    if (std::abs(value - bound) < on_bound * (axis.high - axis.low)) return bound;
-  return value;
-}
-
-double Space::place(const Axis &axis, double value) {
-  return (axis.logarithm ? std::log(value) : value) / axis.unit;
-}
-
 std::vector<SearchParameter> Space::parameters(bool exact) const {
   std::vector<SearchParameter> all;
-  for (std::size_t k = 0; k < free_.size(); ++k) {
-    const Axis &axis = axes_[k];
-    const bool scale = axis.step == scale_step, known = scale && exact;
-    all.push_back({place(axis, number(free_[k], start_)), place(axis, axis.low), place(axis, axis.high),
-                   scale && !known ? long_step : axis.step, known});
+  for (const Axis &axis : axes_) {
+    const bool known = axis.facts.scale && exact;
+    all.push_back({axis.place_of(axis.number(start_)), axis.place_of(axis.bounds.low),
+                   axis.place_of(axis.bounds.high), known ? any_step : axis.facts.step, known});
   }
   return all;
 }
 
+Eigen::MatrixXd Space::guess(const Goals &goals, const std::vector<std::size_t> &of) const {
+  Eigen::Index rows = 0;
+  for (const std::size_t k : of)
+    rows += goals.all()[k].rows();
+  Eigen::MatrixXd slopes(rows, count());
+  for (Eigen::Index column = 0; column < count(); ++column) {
+    const ParameterFacts &facts = axes_[static_cast<std::size_t>(column)].facts;
+    Eigen::Index row = 0;
+    for (const std::size_t k : of)
+      for (const double slope : slopes_of(goals, goals.all()[k], facts.parameter, start_))
+        slopes(row++, column) = facts.change * (goals.scale(k) * slope);
+  }
+  return slopes;
+}
+
 Eigen::MatrixXd Space::by_logarithms(const Eigen::MatrixXd &slopes, const Choice &at) const {
   Eigen::MatrixXd by = slopes;
-  for (std::size_t k = 0; k < free_.size(); ++k) {
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
     const Axis &axis = axes_[k];
-    const double own = std::max(number(free_[k], at), least_share * (axis.high - axis.low));
-    const double rate = (axis.logarithm ? 1 : own) / axis.unit;
+    const double own = std::max(axis.number(at), least_share * axis.room());
+    const double rate = (axis.facts.logarithm ? 1 : own) / axis.facts.change;
     by.col(static_cast<Eigen::Index>(k)) *= rate;
   }
   // Both strengths grow along the first; alone it grows against the second.
   if (free(FreeParameter::tensile_strength) && free(FreeParameter::shear_strength))
-    by.col(static_cast<Eigen::Index>(place(FreeParameter::tensile_strength))) -=
-        by.col(static_cast<Eigen::Index>(place(FreeParameter::shear_strength)));
+    by.col(place(FreeParameter::tensile_strength)) -= by.col(place(FreeParameter::shear_strength));
   return by;
 }
 
 std::vector<std::string> Space::at_bounds(const Choice &at) const {
   std::vector<std::string> all;
-  for (std::size_t k = 0; k < free_.size(); ++k) {
-    const Axis &axis = axes_[k];
-    const double value = number(free_[k], at), low = place(axis, axis.low), high = place(axis, axis.high),
-                 here = place(axis, value), room = at_bound * (high - low);
+  for (const Axis &axis : axes_) {
+    const double low = axis.place_of(axis.bounds.low), high = axis.place_of(axis.bounds.high),
+                 here = axis.place_of(axis.number(at)), room = at_bound * (high - low);
     if (here > low + room && here < high - room) continue;
-    const ParameterFacts facts = facts_of(asked_, free_[k]);
-    const bool ratio = free_[k] == FreeParameter::shear_strength;
-    const double unit = ratio ? 1 : facts.unit;
-    all.push_back(fmt::format("{} {:.4g}{} (searched from {:.4g} to {:.4g})",
-                              ratio ? "shear over tensile strength" : facts.words, value / unit,
-                              ratio ? "" : facts.unit_word, axis.low / unit, axis.high / unit));
+    const bool ratio = axis.facts.parameter == FreeParameter::shear_strength;
+    const ScreenUnit unit = ratio ? ScreenUnit() : axis.facts.unit;
+    all.push_back(fmt::format("{} {:.4g}{} (searched from {:.4g} to {:.4g})", axis.facts.bounded(),
+                              axis.number(at) / unit.factor, unit.word, axis.bounds.low / unit.factor,
+                              axis.bounds.high / unit.factor));
   }
   return all;
 }

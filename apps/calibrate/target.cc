@@ -22,6 +22,29 @@ constexpr double tension_strain = 0.25, splitting_strain = 0.5, splitting_rate =
 // Mean radii of a disc's ends that are ground off; of strips in the diameter.
 constexpr double disc_end_layer = 1, strips_across = 10;
 
+// What a line wants by its first words, of which tests, and how it is called. Any other figure is so by its
+// own name.
+struct Wanted {
+  const char *word;
+  TargetKind kind;
+  const char *figure, *program, *key, *name;
+};
+constexpr const char *of_a_curve = "curve ", *pressure_entry = "Loading/Confining pressure = ";
+constexpr Wanted all_wanted[] = {
+    {"young modulus", TargetKind::young_modulus, "youngs_modulus_gauge_pa", "", "youngs_modulus_gauge_pa",
+     "Young's modulus"},
+    {"poisson ratio", TargetKind::poisson_ratio, "poisson_ratio", "", "poisson_ratio", "Poisson's ratio"},
+    {"strength_pa", TargetKind::strength, "strength_pa", "compress", "compressive_strength_pa",
+     "compressive strength"},
+    {"tension", TargetKind::tension, "strength_pa", "compress", "tensile_strength_pa", "tensile strength"},
+    {"splitting", TargetKind::tension, "strength_pa", "brazilian", "splitting_strength_pa",
+     "splitting strength"},
+    {"strain_at_peak_platen", TargetKind::strain_at_peak, "strain_at_peak_platen", "compress",
+     "strain_at_peak_platen", "strain at peak"},
+    {"poisson_ratio", TargetKind::secant_ratio, "poisson_ratio", "compress", "secant_poisson_ratio",
+     "secant Poisson's ratio"},
+    {of_a_curve, TargetKind::curve, "", "compress", "curve_miss", "miss of the curve"}};
+
 // What stands in front of `mark`, which both lose; all of it where there is no mark.
 std::string before(std::string &text, const std::string &mark) {
   const std::size_t place = text.find(mark);
@@ -40,17 +63,12 @@ std::string unit_of_figure(const std::string &key) {
   throw ValueError("names no figure, \"" + key + "\"." + did_you_mean(key, keys));
 }
 
-bool has_entry(const std::vector<std::string> &entries, const std::string &path) {
-  return std::any_of(entries.begin(), entries.end(),
-                     [&](const std::string &one) { return one.rfind(path + " =", 0) == 0; });
-}
-
 // The first ones but for paths that the others set too, then these.
 std::vector<std::string> replaced(const std::vector<std::string> &entries,
                                   const std::vector<std::string> &by) {
   std::vector<std::string> all;
   for (const std::string &one : entries)
-    if (!has_entry(by, one.substr(0, one.find(" =")))) all.push_back(one);
+    if (!sets(by, one.substr(0, one.find(" =")))) all.push_back(one);
   all.insert(all.end(), by.begin(), by.end());
   return all;
 }
@@ -62,34 +80,6 @@ std::string changes_of(const std::vector<std::string> &entries, const std::vecto
     if (std::find(others.begin(), others.end(), one) == others.end())
       text += (text.empty() ? "" : ", ") + one.substr(one.rfind('/', one.find(" =")) + 1);
   return text;
-}
-
-// What is measured: the figure, its test, its unit.
-std::string read_figure(const std::string &what, Target &to) {
-  if (what == "young modulus" || what == "poisson ratio") {
-    const bool young = what == "young modulus";
-    to = elastic_target(young ? TargetKind::young_modulus : TargetKind::poisson_ratio, not_given);
-    return young ? "Pa" : "1";
-  }
-  if (what == "tension" || what == "splitting") {
-    to.kind = TargetKind::tension;
-    if (what == "splitting") to.program = "brazilian";
-    return "Pa";
-  }
-  if (what.rfind("curve ", 0) == 0) {
-    to.kind = TargetKind::curve, to.figure = "";
-    to.curve = static_cast<int>(read_integer(what.substr(6), between(1, most_curves)));
-    return "";
-  }
-  to.figure = what;
-  const std::string unit = unit_of_figure(what);
-  if (what == "strain_at_peak_platen")
-    to.kind = TargetKind::strain_at_peak;
-  else if (what == "poisson_ratio")
-    to.kind = TargetKind::secant_ratio;
-  else if (what != "strength_pa")
-    to.kind = TargetKind::other;
-  return unit;
 }
 
 // Absolute, in the unit of the value, or relative: "5 %", "0.05".
@@ -107,39 +97,38 @@ double read_tolerance(const std::string &text, const std::string &unit, double v
 
 } // namespace
 
-Target elastic_target(TargetKind kind, double value) {
+bool sets(const std::vector<std::string> &entries, const std::string &path) {
+  return std::any_of(entries.begin(), entries.end(),
+                     [&](const std::string &one) { return one.rfind(path + " =", 0) == 0; });
+}
+
+Target target_of(const std::string &what) {
   Target to;
-  to.kind = kind, to.value = value, to.program = "";
-  to.figure = kind == TargetKind::young_modulus ? "youngs_modulus_gauge_pa" : "poisson_ratio";
+  std::string word = what;
+  if (what.rfind(of_a_curve, 0) == 0) {
+    word = of_a_curve;
+    to.curve_file = static_cast<int>(read_integer(what.substr(word.size()), between(1, most_curves)));
+  }
+  for (const Wanted &one : all_wanted)
+    if (word == one.word) {
+      to.kind = one.kind, to.figure = one.figure, to.program = one.program;
+      to.key = one.key, to.name = one.name;
+      return to;
+    }
+  to.kind = TargetKind::other;
+  to.figure = to.key = to.name = what;
   return to;
 }
 
-Target strength_target(double value, double pressure) {
-  Target to;
-  to.value = value;
-  if (!given(pressure)) return to;
-  to.kind = TargetKind::strength_at_pressure;
-  to.entries = {"Loading/Confinement = particles",
-                "Loading/Confining pressure = " + in_usual_unit(pressure, "Pa")};
-  return to;
-}
-
-Target tension_target(double value) {
-  Target to;
-  to.kind = TargetKind::tension, to.value = value;
-  return to;
-}
-
-Target read_target(const std::string &text) {
-  Target to;
-  if (text.empty()) return to;
-  std::string rest = tidy(text);
+Target read_target(const std::string &line) {
+  if (line.empty()) return {};
+  std::string rest = tidy(line);
   std::string test = before(rest, ":"), value = before(rest, "+-"), tolerance = rest;
   std::string over = test;
-  test = before(over, " over "); // `over` keeps what follows
-  std::string at = test;
-  const std::string what = before(at, " at ");
-  const std::string unit = read_figure(what, to);
+  std::string at = before(over, " over "); // `over` keeps what follows
+  Target to = target_of(before(at, " at "));
+  const bool curve = to.kind == TargetKind::curve;
+  std::string unit = curve ? "" : unit_of_figure(to.figure);
   to.entries = read_assignments(at, true);
   if (!over.empty()) to.over = replaced(to.entries, read_assignments(over, true));
   if (to.is_elastic() && !(at.empty() && over.empty()))
@@ -149,23 +138,27 @@ Target read_target(const std::string &text) {
     throw ValueError(
         "divides tension or splitting by another test. Allowed: strength_pa at Loading/Test = tension, "
         "... over ...");
-  if (!to.over.empty())
-    to.kind = TargetKind::ratio;
-  else if (to.kind == TargetKind::strength && has_entry(to.entries, "Loading/Confining pressure"))
-    to.kind = TargetKind::strength_at_pressure;
-  const bool curve = to.kind == TargetKind::curve || to.figure.empty();
   if (curve && !(value.empty() && to.over.empty()))
     throw ValueError(
         "gives a curve one value, or something that it is over. Allowed: curve 1 at ...: +- 5 %");
-  const bool poisson = to.figure == "poisson_ratio" && to.over.empty();
-  const std::string of_value = to.over.empty() ? unit : "1";
+  if (!to.over.empty()) {
+    to.kind = TargetKind::ratio, unit = "1", to.key = to.figure + "_ratio";
+    to.name =
+        (to.figure == "strength_pa" ? "strength" : to.figure) + " over " + changes_of(to.over, to.entries);
+  }
+  for (const std::string &one : to.entries)
+    if (to.kind == TargetKind::strength && one.rfind(pressure_entry, 0) == 0) {
+      to.kind = TargetKind::strength_at_pressure, to.key = "triaxial_strength_pa";
+      to.name = "strength at " + one.substr(std::string(pressure_entry).size());
+    }
   if (!curve) {
     if (value.empty()) throw ValueError("has no value");
-    to.value = Quantity(to.figure, of_value, poisson ? between_open(to.is_elastic() ? -1 : 0, 0.5) : above(0))
+    const bool poisson = to.figure == "poisson_ratio" && to.over.empty();
+    to.value = Quantity(to.figure, unit, poisson ? between_open(to.is_elastic() ? -1 : 0, 0.5) : above(0))
                    .read(value);
   }
-  if (!tolerance.empty()) to.tolerance = read_tolerance(tolerance, of_value, to.value);
-  to.text = tidy(text);
+  if (!tolerance.empty()) to.tolerance = read_tolerance(tolerance, unit, to.value);
+  to.text = tidy(line);
   return to;
 }
 
@@ -174,7 +167,7 @@ void complete_test(Target &to, const Scene &scene, double tension_rate) {
   const SpecimenSection &s = scene.specimen;
   const Loading &l = scene.loading;
   const auto add = [&](const std::string &path, const std::string &value) {
-    if (!has_entry(to.entries, path)) to.entries.push_back(path + " = " + value);
+    if (!sets(to.entries, path)) to.entries.push_back(path + " = " + value);
   };
   const auto add_number = [&](const std::string &path, double value, const char *unit) {
     if (given(value)) add(path, shortest_text(value) + unit); // else its reader says that it is missing
@@ -194,25 +187,6 @@ void complete_test(Target &to, const Scene &scene, double tension_rate) {
   if (!(scene.platens.strip_width > 0)) add_number("Platens/Strip width", s.width() / strips_across, " m");
 }
 
-std::string Target::key() const {
-  switch (kind) {
-    case TargetKind::strength:
-      return "compressive_strength_pa";
-    case TargetKind::tension:
-      return program == "brazilian" ? "splitting_strength_pa" : "tensile_strength_pa";
-    case TargetKind::strength_at_pressure:
-      return "triaxial_strength_pa";
-    case TargetKind::ratio:
-      return figure + "_ratio";
-    case TargetKind::secant_ratio:
-      return "secant_poisson_ratio";
-    case TargetKind::curve:
-      return "curve_miss";
-    default:
-      return figure;
-  }
-}
-
 double Target::unit() const {
   if (kind == TargetKind::ratio || kind == TargetKind::curve) return 1;
   if (figure.rfind("strain", 0) == 0) return 1e-3;
@@ -221,37 +195,9 @@ double Target::unit() const {
   return figure.size() > pascal.size() && figure.substr(figure.size() - pascal.size()) == pascal ? 1e6 : 1;
 }
 
-std::string Target::name() const {
-  const std::string pressure = "Loading/Confining pressure = ";
-  switch (kind) {
-    case TargetKind::young_modulus:
-      return "Young's modulus";
-    case TargetKind::poisson_ratio:
-      return "Poisson's ratio";
-    case TargetKind::strength:
-      return "compressive strength";
-    case TargetKind::tension:
-      return program == "brazilian" ? "splitting strength" : "tensile strength";
-    case TargetKind::strength_at_pressure:
-      for (const std::string &one : entries)
-        if (one.rfind(pressure, 0) == 0) return "strength at " + one.substr(pressure.size());
-      return "triaxial strength";
-    case TargetKind::strain_at_peak:
-      return "strain at peak";
-    case TargetKind::secant_ratio:
-      return "secant Poisson's ratio";
-    case TargetKind::curve:
-      return "miss of the curve";
-    default:
-      break;
-  }
-  const std::string what = figure == "strength_pa" ? "strength" : figure;
-  return kind == TargetKind::ratio ? what + " over " + changes_of(over, entries) : what;
-}
-
 std::string Target::words() const {
   const char *units = unit() == 1e9 ? ", GPa" : unit() == 1e6 ? ", MPa" : unit() == 1e-3 ? ", mm/m" : "";
-  return (number > 0 ? fmt::format("({}) ", number) : "") + name() + units;
+  return (number > 0 ? fmt::format("({}) ", number) : "") + name + units;
 }
 
 } // namespace platen::apps

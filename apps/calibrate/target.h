@@ -29,8 +29,9 @@ enum class TargetKind {
 
 struct Target {
   TargetKind kind = TargetKind::strength;
-  std::string figure = "strength_pa"; // a number of summary.json; "" of a curve
-  std::string program = "compress";   // or "brazilian"; "" of a static solve
+  std::string figure;               // a number of summary.json; "" of a curve
+  std::string program = "compress"; // or "brazilian"; "" of a static solve
+  std::string key, name;            // "triaxial_strength_pa" of summary.json; "strength at 9 MPa"
   // Of its test, and of that whose figure it is over, "Section/Key = value"; the latter is the same test but
   // for what the line says of it.
   std::vector<std::string> entries, over;
@@ -39,24 +40,23 @@ struct Target {
   std::string file;             // of a curve; resolved
   std::string text;             // as it stands in the scene
   std::string entry;            // that says it, "Calibrate/Target 1"
-  int curve = 0, number = 0;    // "curve 2"; "Target 3", 0 of the keys of Calibrate
+  int curve_file = 0;           // 2: Calibrate/Curve 2
+  int number = 0;               // 3: Calibrate/Target 3; 0 of what is only watched
 
   bool is_elastic() const { return program.empty(); }
-  std::string key() const;   // of summary.json, "triaxial_strength_pa"
-  std::string name() const;  // "strength at 9 MPa"
   std::string words() const; // "(3) strength at 9 MPa, MPa"
   double unit() const;       // that words() names, SI
 };
 
 constexpr std::size_t most_targets = 20, most_curves = 3;
 
-// A line as above; "" is none: its entry is "". Throws ValueError.
-Target read_target(const std::string &text);
-// Those of the keys of Calibrate.
-Target elastic_target(TargetKind kind, double value);
-Target strength_target(double value, double pressure = not_given);
-Target tension_target(double value);
+// A line as above; "" is none: its text is "". Throws ValueError.
+Target read_target(const std::string &line);
+// Of what stands in front of a line, "young modulus": without entries and value.
+Target target_of(const std::string &what);
 
+// Whether one of "Section/Key = value" is of that path.
+bool sets(const std::vector<std::string> &entries, const std::string &path);
 // What tests of tension and of splitting need beside what the line says of them: ends, speed, largest strain.
 void complete_test(Target &target, const Scene &scene, double tension_rate);
 

@@ -81,15 +81,7 @@ private:
 
 } // namespace
 
-Process::Process(const std::vector<std::string> &command, Output output) {
-  start(command, nullptr, output);
-}
-
 Process::Process(const std::vector<std::string> &command, const Body &body, Output output) {
-  start(command, body, output);
-}
-
-void Process::start(const std::vector<std::string> &command, const Body &body, Output output) {
   std::vector<char *> arguments;
   for (const std::string &argument : command)
     arguments.push_back(const_cast<char *>(argument.c_str())); // nobody writes there
@@ -180,9 +172,7 @@ std::vector<std::string> answers(std::size_t count, int at_a_time,
   for (std::size_t next = 0; next < count || !active.empty();) {
     if (stop_requested() != 0) throw Stopped{stop_requested()};
     for (; next < count && active.size() < static_cast<std::size_t>(std::max(1, at_a_time)); ++next)
-      active.emplace_back(next, Process(
-                                    {"answer"}, [&body, next](int, char **) { return body(next); },
-                                    Process::Output::dropped));
+      active.emplace_back(next, Process({"answer"}, [&body, next](int, char **) { return body(next); }));
     for (auto one = active.begin(); one != active.end();) {
       if (one->second.running()) {
         ++one;

@@ -14,14 +14,14 @@ namespace platen::apps {
 class Process {
 public:
   enum class Output { dropped, ours }; // what becomes of its standard output
-  // Program and arguments, no shell, in the working folder of this process. Throws OutputError where the
-  // system has no process to give.
-  explicit Process(const std::vector<std::string> &command, Output output = Output::dropped);
-  // The same of a function, in a copy of this process, which has its libraries loaded already: `body` gets
-  // the command as the main of a program does and returns the exit status. Handled signals are as a started
-  // program finds them. This process may have no other thread (has_one_thread()): a copy would be without it.
   using Body = std::function<int(int argc, char **argv)>;
-  Process(const std::vector<std::string> &command, const Body &body, Output output);
+  // Program and arguments, no shell, in the working folder of this process. With a `body` the same of a
+  // function, in a copy of this process, which has its libraries loaded already: it gets the command as the
+  // main of a program does and returns the exit status. Handled signals are as a started program finds them.
+  // This process may have no other thread then (has_one_thread()): a copy would be without it. Throws
+  // OutputError where the system has no process to give.
+  explicit Process(const std::vector<std::string> &command, const Body &body = nullptr,
+                   Output output = Output::dropped);
   ~Process(); // asks a program that still runs to end, and waits for it
   Process(Process &&other) noexcept;
   Process &operator=(Process &&) = delete;
@@ -34,8 +34,6 @@ public:
   std::string errors() const;
 
 private:
-  void start(const std::vector<std::string> &command, const Body &body, Output output);
-
   pid_t id_ = -1; // -1: nothing runs
   int status_ = 0, errors_ = -1;
 };

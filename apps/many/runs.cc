@@ -231,11 +231,10 @@ void start_as(TestRun &run, int threads, const fs::path &packings) {
 Process start(const TestRun &run, const std::vector<std::string> &further, Process::Output output) {
   std::vector<std::string> command = run.command;
   command.insert(command.end(), further.begin(), further.end());
-  if (!has_one_thread()) return Process(command, output);
-  const auto test = [&name = run.program](int argc, char **argv) {
+  const Process::Body test = [&name = run.program](int argc, char **argv) {
     return run_app_on_ranks(argc, argv, program(name), name == "brazilian" ? run_brazilian : run_compression);
   };
-  return Process(command, test, output);
+  return Process(command, has_one_thread() ? test : nullptr, output);
 }
 
 void clear_runs(const OutputPaths &paths, bool overwrite, const std::vector<fs::path> &inputs) {

@@ -1,12 +1,26 @@
 // What a name that is not known was meant to be: the nearest one, longer keys that hold it, the right name in
 // another place, characters that look alike.
 #include <algorithm>
+#include <utility>
 
 #include "apps/scene/parameters.h"
 #include "base/characters.h"
 
 namespace platen::apps {
 namespace {
+
+// Keys that are no more, and what is written instead.
+constexpr const char *in_a_cell =
+    "Calibrate/Target 1 = strength_pa at Loading/Confinement = particles, Loading/Confining pressure = 9 "
+    "MPa: "
+    "82 MPa";
+constexpr std::pair<const char *, const char *> replaced[] = {
+    {"Calibrate/Young modulus", "Calibrate/Target 1 = young modulus: 25 GPa"},
+    {"Calibrate/Poisson ratio", "Calibrate/Target 1 = poisson ratio: 0.2"},
+    {"Calibrate/Compressive strength", "Calibrate/Target 1 = strength_pa: 40 MPa"},
+    {"Calibrate/Tensile strength", "Calibrate/Target 1 = tension: 4 MPa"},
+    {"Calibrate/Triaxial strength", in_a_cell},
+    {"Calibrate/Confining pressure", in_a_cell}};
 
 std::string section_of(const std::string &path) {
   const auto slash = path.rfind('/');
@@ -80,6 +94,8 @@ EntryError Parameters::unknown_entry(const std::string &path, const Origin &orig
   if (!section.empty() && !is_section(section)) return unknown_section(section, origin);
   const std::string message =
       origin.text() + ": error: " + shown(path) + " is not a parameter" + look_alike_in(path) + ".";
+  for (const auto &[former, now] : replaced)
+    if (path == former) return {message + " Allowed: " + now + ".", origin, ""};
   std::vector<std::string> keys, longer, everywhere;
   std::string elsewhere;
   for (const Entry &entry : entries_) {

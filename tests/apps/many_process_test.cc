@@ -21,8 +21,8 @@ int status_of(Process &process) {
   return process.status();
 }
 
-int status_of_body(const Process::Body &body, std::vector<std::string> words = {"name"}) {
-  Process process(words, body, Process::Output::dropped);
+int status_of_body(const Process::Body &body, const std::vector<std::string> &words = {"name"}) {
+  Process process(words, body);
   return status_of(process);
 }
 
@@ -34,14 +34,11 @@ TEST(StudyProcess, a_program_is_run_with_its_words) {
 
 TEST(StudyProcess, a_function_is_run_with_its_words_in_a_process_of_its_own) {
   int here = 0;
-  Process process(
-      {"/somewhere/name", "second word"},
-      [&](int argc, char **argv) {
-        here = 1;
-        std::cerr << argc << ": " << argv[0] << ", " << argv[1] << (argv[2] == nullptr ? "" : "?");
-        return 7;
-      },
-      Process::Output::dropped);
+  Process process({"/somewhere/name", "second word"}, [&](int argc, char **argv) {
+    here = 1;
+    std::cerr << argc << ": " << argv[0] << ", " << argv[1] << (argv[2] == nullptr ? "" : "?");
+    return 7;
+  });
   EXPECT_EQ(status_of(process), 7);
   EXPECT_EQ(process.errors(), "2: /somewhere/name, second word");
   EXPECT_EQ(here, 0);
@@ -116,8 +113,7 @@ TEST(StudyProcess, signals_are_held_back_in_neither_but_where_they_were) {
 
 TEST(StudyProcess, a_function_that_is_asked_to_end_ends) {
   const Handled term(SIGTERM, handled);
-  Process process(
-      {"name"}, [](int, char **) { return pause(); }, Process::Output::dropped);
+  Process process({"name"}, [](int, char **) { return pause(); });
   process.send(SIGTERM);
   EXPECT_EQ(status_of(process), -SIGTERM);
 }

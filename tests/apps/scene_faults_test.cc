@@ -289,8 +289,9 @@ TEST(SceneFaults, no_bond_is_unbreakable_by_oversight) {
                                 "Platens/Stiffness = 1e6 N/m"}),
               "");
     // What is solved at rest breaks nothing, what is searched begins with it.
-    EXPECT_EQ(message_of(good, {missing, "Calibrate/Young modulus = 20 GPa"}, program("calibrate")), "");
-    EXPECT_NE(message_of(good, {missing, "Calibrate/Compressive strength = 20 MPa"}, program("calibrate"))
+    EXPECT_EQ(message_of(good, {missing, "Calibrate/Target 1 = young modulus: 20 GPa"}, program("calibrate")),
+              "");
+    EXPECT_NE(message_of(good, {missing, "Calibrate/Target 1 = strength_pa: 20 MPa"}, program("calibrate"))
                   .find(says + ": Effects/Bond is "),
               std::string::npos);
   }

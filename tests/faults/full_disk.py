@@ -56,7 +56,7 @@ def cases():
             "Calibrate/Stiffness ratio list = 0.2, 0.5"], ["trials.csv"]),
         Case("platen-calibrate", "calibration", crushed, tiny + [
             "Calibrate/Seeds = 1", "Calibrate/Verification seeds = 0",  # of 130 spheres another packing tells nothing
-            "Loading/Axial rate = 0.1 m/s", "Calibrate/Young modulus = 20 GPa", "Calibrate/Compressive strength = 40 MPa"], ["trials.csv"], 12),
+            "Loading/Axial rate = 0.1 m/s", "Calibrate/Target 1 = young modulus: 20 GPa", "Calibrate/Target 2 = strength_pa: 40 MPa"], ["trials.csv"], 12),
         Study("platen-study", "study", SCENES / "study.prm", ["Study/Sphere radius list = 2 mm"], ["study.json"], 12),
         Report("platen-report", "report", None, sizes=5),
         OnRanks("platen-compress", "ranks", crushed, ["Loading/Axial rate = 2 m/s", "Loading/Target strain = 0.001",
