@@ -1,19 +1,14 @@
 // What each effect costs: one specimen without any, then with one more effect at a time, then with all, in
 // turn. Prints ns per particle and step and bytes per particle, each with what it adds to the bare scene.
 // Bonded: the specimen of bench_step, pressed; grains: the same spheres without bonds, overlapping a little.
-#include <CLI/CLI.hpp>
-
 #include <cstdio>
 #include <functional>
 #include <limits>
 #include <memory>
-#include <string>
-#include <vector>
 
-#include "base/clock.h"
+#include "apps/output/machine.h"
 #include "base/parallel.h"
-#include "dem/model.h"
-#include "step_scene.h"
+#include "workload.h"
 
 namespace {
 
@@ -52,55 +47,45 @@ dem::ModelSettings grains() {
   return s;
 }
 
-using Change = std::function<void(dem::ModelSettings &)>;
 struct Effect {
   const char *name;
-  Change add;
+  std::function<void(dem::ModelSettings &)> add;
 };
 
-void turn(dem::ModelSettings &s) {
+void rotation(dem::ModelSettings &s) {
   s.rotation = true;
 }
-void rub(dem::ModelSettings &s) {
-  s.contact->tangential = dem::TangentialContact::coulomb;
+void moments(dem::ModelSettings &s) {
+  s.rotation = std::get<dem::ParallelBond::Parameters>(*s.bond).moments = true;
+}
+void dashpots(dem::ModelSettings &s) {
+  s.bond_dashpot = 0.1;
 }
 
 std::vector<Effect> effects_of_bonds() {
-  return {{"local damping", [](auto &s) { s.local_damping = 0.5; }},
-          {"dissipative scheme",
-           [](auto &s) {
-             s.scheme = dem::Scheme::tchamwa_wielgosz;
-             s.dissipation = 1.2;
-           }},
-          {"gravity",
-           [](auto &s) {
-             s.gravity = {0, 0, -9.80665};
-           }},
-          {"energy ledger", [](auto &s) { s.energy_ledger = true; }},
-          {"crack log", [](auto &s) { s.crack_log = true; }},
-          {"bond dashpots", [](auto &s) { s.bond_dashpot = 0.1; }},
-          {"rotation", turn},
-          {"rotation, bond moments",
-           [](auto &s) {
-             turn(s);
-             std::get<dem::ParallelBond::Parameters>(*s.bond).moments = true;
-           }},
-          {"rotation, bond moments, bond dashpots", [](auto &s) {
-             turn(s);
-             std::get<dem::ParallelBond::Parameters>(*s.bond).moments = true;
-             s.bond_dashpot = 0.1;
-           }}};
+  return {
+      {"local damping", [](auto &s) { s.local_damping = 0.5; }},
+      {"dissipative scheme", [](auto &s) { s.scheme = dem::Scheme::tchamwa_wielgosz, s.dissipation = 1.2; }},
+      {"gravity",
+       [](auto &s) {
+         s.gravity = Vector3{0, 0, -9.80665};
+       }},
+      {"energy ledger", [](auto &s) { s.energy_ledger = true; }},
+      {"crack log", [](auto &s) { s.crack_log = true; }},
+      {"bond dashpots", dashpots},
+      {"rotation", rotation},
+      {"rotation, bond moments", moments},
+      {"rotation, bond moments, bond dashpots", [](auto &s) { moments(s), dashpots(s); }}};
 }
 
 std::vector<Effect> effects_of_contacts() {
+  using dem::TangentialContact;
   return {{"contact dashpots", [](auto &s) { s.contact->damping = 0.1; }},
           {"hertz for linear", [](auto &s) { s.contact->normal = dem::NormalContact::hertz; }},
-          {"friction", rub},
-          {"rotation", turn},
-          {"rotation, friction, rolling", [](auto &s) {
-             turn(s);
-             s.contact->tangential = dem::TangentialContact::coulomb_with_rolling;
-           }}};
+          {"friction", [](auto &s) { s.contact->tangential = TangentialContact::coulomb; }},
+          {"rotation", rotation},
+          {"rotation, friction, rolling",
+           [](auto &s) { rotation(s), s.contact->tangential = TangentialContact::coulomb_with_rolling; }}};
 }
 
 std::vector<Scene> scenes_of(const dem::ModelSettings &base, const std::vector<Effect> &effects) {
@@ -132,8 +117,8 @@ void steps(dem::Model &m, double dt, int count) {
   m.end_step(dt);
 }
 
-void compare(const char *title, const dem::Specimen &specimen, const std::vector<Scene> &scenes, int count,
-             int repeats) {
+void compare(const char *title, const dem::Specimen &specimen, const std::vector<Scene> &scenes,
+             const bench::Workload &o) {
   std::vector<std::unique_ptr<dem::Model>> models;
   std::vector<std::vector<double>> ns(scenes.size()), added(scenes.size());
   for (const Scene &s : scenes) {
@@ -146,13 +131,11 @@ void compare(const char *title, const dem::Specimen &specimen, const std::vector
     dt = std::min(dt, 0.2 * m->stable_step({}, 0).limit);
   }
   for (auto &m : models)
-    steps(*m, dt, count / 5 + 1);
-  const double per = 1e9 / (static_cast<double>(specimen.size()) * count);
-  for (int r = 0; r < repeats; ++r)
+    steps(*m, dt, o.steps / 5 + 1);
+  const double per = 1e9 / (static_cast<double>(specimen.size()) * o.steps);
+  for (int r = 0; r < o.repeats; ++r)
     for (std::size_t k = 0; k < models.size(); ++k) {
-      const auto start = Clock::now();
-      steps(*models[k], dt, count);
-      ns[k].push_back(per * seconds_since(start));
+      ns[k].push_back(per * bench::seconds_of([&] { steps(*models[k], dt, o.steps); }));
       added[k].push_back(ns[k].back() - ns[0].back());
     }
   std::printf("\n%s: %zu particles, %zu bonds, %zu contacts\n", title, models[0]->particles.size(),
@@ -174,23 +157,22 @@ void compare(const char *title, const dem::Specimen &specimen, const std::vector
 } // namespace
 
 int main(int argc, char **argv) {
-  int particles = 22500, threads = 1, count = 100, repeats = 7;
+  bench::Workload o;
+  o.repeats = 7;
+  int threads = 1;
   CLI::App app("Cost of each effect of a scene, alone and together.");
-  app.add_option("--particles", particles, "spheres of 1 mm radius")->check(CLI::Range(100, 2000000));
+  o.declare(app);
   app.add_option("--threads", threads, "threads")->check(CLI::Range(1, 256));
-  app.add_option("--steps", count, "steps per repeat")->check(CLI::Range(1, 1000000));
-  app.add_option("--repeats", repeats, "rounds over all scenes; medians are printed")
-      ->check(CLI::Range(1, 1000));
   CLI11_PARSE(app, argc, argv);
 
   const ThreadLimit limit(threads);
   std::printf("%s, %d threads, %s kernels\n", apps::this_machine().processor.c_str(), threads,
               dem::name(dem::best_instruction_set()));
-  const dem::Specimen specimen = bench::close_packed(particles);
-  compare("bonded", specimen, scenes_of(bonded(), effects_of_bonds()), count, repeats);
+  const dem::Specimen specimen = o.specimen();
+  compare("bonded", specimen, scenes_of(bonded(), effects_of_bonds()), o);
   dem::Specimen pressed = specimen; // every grain of the packing touches its neighbours
   for (double &r : pressed.radius)
     r *= 1.001;
-  compare("grains", pressed, scenes_of(grains(), effects_of_contacts()), count, repeats);
+  compare("grains", pressed, scenes_of(grains(), effects_of_contacts()), o);
   return 0;
 }

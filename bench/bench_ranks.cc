@@ -4,27 +4,16 @@
 #include <mpi.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
-
 #include <cstdio>
 #include <memory>
-#include <string>
-#include <vector>
 
-#include "base/clock.h"
 #include "base/parallel.h"
 #include "dist/ranks.h"
-#include "step_scene.h"
+#include "workload.h"
 
 namespace {
 
 using namespace platen;
-
-constexpr int most_packed = 50000; // beyond, tiles that repeat themselves
-
-struct Options {
-  int particles = 22500, steps = 200, repeats = 21;
-};
 
 int rank = 0, ranks = 1;
 
@@ -41,9 +30,7 @@ void wait_for_all() {
 double seconds_of(coupling::PlatenTest &test, long steps, int threads) {
   const ThreadLimit limit(threads);
   bench::run(test, steps / 10 + 1);
-  const auto start = Clock::now();
-  bench::run(test, steps);
-  return seconds_since(start);
+  return bench::seconds_of([&] { bench::run(test, steps); });
 }
 
 struct Problem {
@@ -52,7 +39,7 @@ struct Problem {
 };
 
 Problem problem_of(const dem::Specimen &specimen, MPI_Comm over) {
-  Problem p{std::make_unique<coupling::PlatenTest>(specimen, bench::elastic_press()), nullptr};
+  Problem p{std::make_unique<coupling::PlatenTest>(specimen, bench::Workload().press()), nullptr};
   if (over == MPI_COMM_NULL) return p;
   auto exchange = std::make_unique<dist::Ranks>(over);
   p.ranks = exchange.get();
@@ -121,7 +108,8 @@ void print_traffic(const Problem &p, const dist::Traffic &before, const dist::Tr
       1e3 * seconds, 1e3 * alone, 1e3 * own[2] / ranks, 1e3 * most_waited, 1 - own[2] / ranks / alone);
 }
 
-void measure(const Options &o, const dem::Specimen &specimen) {
+void measure(const bench::Workload &o) {
+  const dem::Specimen specimen = o.specimen();
   Problem alone, one, all = problem_of(specimen, MPI_COMM_WORLD);
   if (rank == 0) {
     alone = problem_of(specimen, MPI_COMM_NULL);
@@ -167,17 +155,16 @@ void measure(const Options &o, const dem::Specimen &specimen) {
 } // namespace
 
 int main(int argc, char **argv) {
-  Options o;
+  bench::Workload o;
+  o.steps = 200, o.repeats = 21;
   CLI::App app("Steps of a bonded specimen on several ranks, beside one process.");
-  app.add_option("--particles", o.particles, "spheres of 1 mm radius")->check(CLI::Range(1000, 20000000));
-  app.add_option("--steps", o.steps, "steps per repeat")->check(CLI::Range(10, 1000000));
-  app.add_option("--repeats", o.repeats, "repeats; medians are printed")->check(CLI::Range(1, 1000));
+  o.declare(app);
   CLI11_PARSE(app, argc, argv);
   int level = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  measure(o, (o.particles > most_packed ? bench::repeated(o.particles) : bench::close_packed(o.particles)));
+  measure(o);
   MPI_Finalize();
   return 0;
 }

@@ -63,7 +63,7 @@ class Test:
 
 def cases_of(program):
     """{suite: [test, ...]} of a gtest program."""
-    cases = {}
+    cases, suite = {}, None
     for line in subprocess.run([program, "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout.splitlines():
         word = line.split("#")[0].rstrip()
         if line.startswith("  "):

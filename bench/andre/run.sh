@@ -38,7 +38,7 @@ done
 for seed in 1 2 3; do
   for kappa in 0 0.025 0.05 0.1 0.15 0.2 0.25 0.3 0.4 0.5; do pack 4000 $kappa $seed; done
 done
-python3 -B "$root/bench/andre/lattice.py" "$folder/lattice.csv"
+python3 -B "$root/bench/specimen.py" lattice 0.041 20 >"$folder/lattice.csv" # the ordered packing: 4000 spheres in the cube
 run packings/lattice platen-pack silica_bulk "Specimen/Packing = file" "Specimen/File = $folder/lattice.csv"
 run abacus platen-calibrate abacus_silica
 

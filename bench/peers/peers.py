@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
-"""Platen and Yade on the same packing, in turn (Platen, Yade, Platen, ...), and a table of the ratios. README.md says what is the same and what is not.
+"""Platen and Yade in turn on the same packing, crushed to its peak and past it, from command to prompt, and a table of the ratios. README.md says
+what is the same and what is not.
 
-    peers.py step BUILD OUT     one elastic step (BUILD/bin/bench_step); writes OUT/peers.md, peers.csv, specimen.csv and logs
-    peers.py whole BUILD OUT    one packing crushed to its peak and past it, from command to prompt (BUILD/apps); writes OUT/whole.md, whole.csv, the
-                                packing, a folder and a log of each run
+    peers.py BUILD OUT    programs of BUILD/apps; writes OUT/whole.md, whole.csv, the packing, a folder and a log of each run
 """
 import argparse
 import csv
@@ -61,11 +60,6 @@ def head(title):
             f"- Yade: {yade[1] if yade else 'unknown'}, package {said('dpkg-query', '-W', '-f', '${Version}', 'yade') or 'not of Debian'}\n")
 
 
-def found(log, pattern):
-    """The group of the pattern in the log's last such line."""
-    return re.findall(pattern, log.read_text(), re.M)[-1]
-
-
 def pairs_of(one):
     """Rows of both programs in turn: [{"platen": row, "yade": row}, ...]. Particles and bonds have to agree."""
     pairs = []
@@ -79,7 +73,7 @@ def pairs_of(one):
                 sys.exit(f"particles and bonds differ, the figures do not compare: {p}, {y}")
             pairs.append(both)
     rows = [row for both in pairs for row in both.values()]
-    with open(asked.out / f"{'peers' if asked.what == 'step' else 'whole'}.csv", "w", newline="") as file:
+    with open(asked.out / "whole.csv", "w", newline="") as file:
         table = csv.DictWriter(file, rows[0].keys(), restval="", lineterminator="\n")
         table.writeheader()
         table.writerows(rows)
@@ -88,40 +82,6 @@ def pairs_of(one):
 
 def lines(header, rows):
     return "\n".join("| " + " | ".join(cells) + " |" for cells in (header, ["---"] * len(header), *rows)) + "\n"
-
-
-def spread(values):
-    return f"{statistics.median(values):.2f} ({min(values):.2f} ... {max(values):.2f})"
-
-
-def step():
-    bench, specimen, log = asked.build / "bin" / "bench_step", asked.out / "specimen.csv", asked.out / "packing.log"
-    options = ["--alone"] + ["--baseline"] * asked.baseline
-    measured(log, bench, *options, "--particles", str(asked.particles), "--steps", "1", "--repeats", "1", "--write-specimen", specimen)
-    time_step = found(log, r"step ([\d.e+-]+) s$")
-    repeats = ["--steps", str(asked.steps), "--repeats", str(asked.repeats)]
-
-    def one(program, threads, name):
-        log = asked.out / f"{name}.log"
-        command = [bench, *options, "--specimen", specimen, "--threads", str(threads)] if program == "platen" else [
-            "yade", "-n", "-x", f"-j{threads}", HERE / "yade_step.py", specimen, "--time-step", time_step]
-        cost = measured(log, *command, *repeats)
-        return {**{key: int(found(log, rf"(\d+) {key}")) for key in ("particles", "bonds")}, "rate": float(found(log, r"^([\d.]+) M bond-steps/s$")), **cost}
-
-    pairs = pairs_of(one)
-    first, table = pairs[0], []
-    for threads in asked.threads:
-        p, y = ([both[program] for both in pairs if both[program]["threads"] == threads] for program in ("platen", "yade"))
-        rates = [[row["rate"] for row in rows] for rows in (p, y)]
-        table.append([str(threads), *map(spread, rates), f"**{spread([a / b for a, b in zip(*rates)])}**",
-                      *(f"{max(row['memory_mb'] for row in rows):.0f}" for rows in (p, y))])
-    return (head("One step of Platen and of Yade") + f"- kernels of Platen: {found(log, r'threads, (.*) kernels')}; step {time_step} s in both\n"
-            f"- {asked.steps} steps a repeat, median of {asked.repeats} repeats a run, {asked.pairs} pairs of runs in turn\n\n"
-            f"{first['platen']['particles']} particles; bonds: Platen {first['platen']['bonds']}, Yade {first['yade']['bonds']}. Rates in M bond-steps/s.\n\n" +
-            lines(["threads", "Platen", "Yade", "Platen over Yade", "Platen, MB", "Yade, MB"], table) +
-            "\nMedian (smallest ... largest) of the runs; the ratio is taken pair by pair. Memory is the largest peak.\n\n" +
-            lines(["threads", "pair", "Platen", "Yade", "ratio"], [[str(both["yade"]["threads"]), str(both["yade"]["pair"]), *(
-                f"{both[program]['rate']:.2f}" for program in both), f"{both['platen']['rate'] / both['yade']['rate']:.2f}"] for both in pairs]))
 
 
 def told(folder):
@@ -183,24 +143,18 @@ if __name__ == "__main__":
     if sys.argv[1:2] == ["measure"]:
         sys.exit(measure(*sys.argv[2:]))
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("step", "whole"))
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--threads", type=int, nargs="+", default=[1, 2])
-    parser.add_argument("--pairs", type=int, help="of runs (5; 1 of a whole test)")
+    parser.add_argument("--pairs", type=int, default=1, help="of runs")
     parser.add_argument("--within", type=str.split, default=[], help='command that runs each program, such as "flock FILE"')
-    parser.add_argument("--particles", type=int, default=22500, help="of a step")
-    parser.add_argument("--steps", type=int, default=500, help="of a repeat")
-    parser.add_argument("--repeats", type=int, default=3, help="of a run")
-    parser.add_argument("--baseline", action="store_true", help="kernels of plain x86-64, which Debian builds Yade for")
-    parser.add_argument("--radius", default="1.78 mm", help='of the spheres of a whole test; "3 mm" for a quick look')
+    parser.add_argument("--radius", default="1.78 mm", help='of the spheres; "3 mm" for a quick look')
     asked = parser.parse_args()
-    asked.pairs = asked.pairs or (5 if asked.what == "step" else 1)
     if shutil.which("yade") is None:
         parser.error("yade is missing: apt-get install yade")
     if max(asked.threads) > os.cpu_count():
         parser.error(f"{max(asked.threads)} threads on {os.cpu_count()} cores would measure the scheduler")
     asked.out.mkdir(parents=True, exist_ok=True)
-    page = asked.out / ("peers.md" if asked.what == "step" else "whole.md")
-    page.write_text(step() if asked.what == "step" else whole())
+    page = asked.out / "whole.md"
+    page.write_text(whole())
     print(page.read_text())

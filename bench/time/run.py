@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
-"""Seconds from command to prompt of two builds, side by side.
+"""Seconds from command to prompt: of two builds side by side, or of one test on a machine that others use too.
 
-    bench/time/run.py BEFORE AFTER [--only CASE ...] [--pairs 3] [--quick]
+    bench/time/run.py BEFORE AFTER [--only CASE ...] [--repeats 3] [--quick]
+    bench/time/run.py APPS --busy 2 [--threads 1 2 8] [--repeats 3]
 
-BEFORE and AFTER are folders of apps (build/apps). Each case is run in turn by one and the other, `--pairs` times; the table
-has medians and the median of the ratios of pairs. Every run starts in an empty folder, without a cache of packings. Where
-both end, the line says whether they gave the same history.csv. --quick leaves out what takes above a minute. For a quiet
-machine. Exit status: 0; 1 where a run fails.
+Folders are those of apps (build/apps). Every run starts in an empty folder, without a cache of packings; all are run in turn, and tables have
+medians. Two builds: of each case also the median of the ratios of pairs, and, where both end, whether they gave the same history.csv; --quick leaves
+out what takes above a minute. --busy N: demo_dry with each number of threads on an idle machine and beside N processes that compute without end. A
+fair share beside N of them on as many cores is half of the machine: twice the idle seconds of a thread on each core; CPU seconds above those of
+one thread are waiting for each other without sleep. For a machine that is quiet but for this. Exit status: 0; 1 where a run fails.
 """
 
 import argparse
@@ -14,6 +16,7 @@ import datetime
 import os
 import pathlib
 import platform
+import resource
 import statistics
 import subprocess
 import sys
@@ -36,46 +39,78 @@ CASES = {  # command, numbers of threads (0: none is asked), exit status
 LONG = ("concrete_dry", "triaxial_concrete", "interface triaxial", "study_friction_quick")
 
 
-def run(command, apps, folder, threads, status):
-    """Seconds, and the bytes of what it found; None where it failed."""
-    line = [apps / command[0], *command[1:]] + (["-t", str(threads)] if threads else [])
-    begin = time.monotonic()
-    done = subprocess.run(line, capture_output=True, text=True, stdin=subprocess.DEVNULL, cwd=folder,
-                          env=dict(os.environ, PLATEN_CACHE="none"))  # packings of earlier runs would be found
-    seconds = time.monotonic() - begin
+def run(apps, case, threads):
+    """Wall and CPU seconds of one run, and the bytes of what it found; None where it failed."""
+    command, _, status = CASES[case]
+    line = [apps.resolve() / command[0], *command[1:]] + (["-t", str(threads)] if threads else [])
+    with tempfile.TemporaryDirectory() as folder:
+        before, begin = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
+        done = subprocess.run(line, capture_output=True, text=True, stdin=subprocess.DEVNULL, cwd=folder,
+                              env=dict(os.environ, PLATEN_CACHE="none"))  # packings of earlier runs would be found
+        wall, after = time.monotonic() - begin, resource.getrusage(resource.RUSAGE_CHILDREN)
+        files = [file for name in ("history.csv", "specimen.csv") if (file := pathlib.Path(folder, "run", name)).exists()]
+        found = files[0].read_bytes() if files else b""
     if done.returncode != status:
         print(f"status {done.returncode}: {' '.join(map(str, done.args))}\n{done.stderr}", file=sys.stderr)
-        return seconds, None
-    files = [file for name in ("history.csv", "specimen.csv") if (file := pathlib.Path(folder, "run", name)).exists()]
-    return seconds, files[0].read_bytes() if files else b""
+        found = None
+    return wall, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, found
+
+
+def side_by_side(builds, cases, pairs):
+    """The table of two builds; whether no run failed."""
+    failed = False
+    print("| case | threads | before, s | after, s | ratio | history |\n| --- | --- | --- | --- | --- | --- |", flush=True)
+    for case in cases:
+        for threads in CASES[case][1]:
+            rows = [[run(apps, case, threads) for apps in builds] for _ in range(pairs)]
+            found = [of for row in rows for _, _, of in row]
+            failed |= None in found
+            told = "" if not found[-1] else "same" if found[-1] == found[-2] else "other"
+            before, after = ([row[k][0] for row in rows] for k in (0, 1))
+            print(f"| {case} | {threads or ''} | {statistics.median(before):.3g} | {statistics.median(after):.3g} | "
+                  f"{statistics.median(b / a for b, a in zip(before, after)):.2f} | {told} |", flush=True)
+    return not failed
+
+
+def beside_others(apps, count, numbers, repeats):
+    """The table of one test beside `count` processes; whether no run failed."""
+    found = {(others, threads): [] for others in (0, count) for threads in numbers}
+    for _ in range(repeats):
+        for (others, threads), rows in found.items():
+            busy = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(others)]
+            try:
+                rows.append(run(apps, "demo_dry", threads))
+            finally:
+                for process in busy:
+                    process.kill()
+                    process.wait()
+    median = {key: [statistics.median(column) for column in list(zip(*rows))[:2]] for key, rows in found.items()}
+    cores = os.cpu_count()
+    fair = median.get((0, cores), [float("nan")])[0] * (cores + count) / cores
+    print(f"Fair share beside {count}: {fair:.2f} s\n\n| busy processes | threads | seconds | CPU seconds | over fair share | "
+          "over a thread on each core |\n| --- | --- | --- | --- | --- | --- |")
+    for (others, threads), (wall, cpu) in median.items():
+        same = wall / median[others, cores][0] if (others, cores) in median else float("nan")
+        print(f"| {others} | {threads} | {wall:.2f} | {cpu:.2f} | {f'{wall / fair:.2f}' if others else '-'} | {same:.2f} |")
+    return not any(row[2] is None for rows in found.values() for row in rows)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("before", type=pathlib.Path)
-    parser.add_argument("after", type=pathlib.Path)
+    parser.add_argument("builds", nargs="+", type=pathlib.Path, metavar="APPS")
     parser.add_argument("--only", nargs="+", choices=list(CASES), default=list(CASES))
-    parser.add_argument("--pairs", type=int, default=3)
+    parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--quick", action="store_true")
-    options = parser.parse_args()
-    failed = False
-    print(f"{platform.node()}, {os.cpu_count()} cores, {datetime.date.today()}, {options.pairs} pairs\n")
-    print("| case | threads | before, s | after, s | ratio | history |\n| --- | --- | --- | --- | --- | --- |", flush=True)
-    for name in [name for name in options.only if not (options.quick and name in LONG)]:
-        command, several, status = CASES[name]
-        for threads in several:
-            pairs = []
-            for _ in range(options.pairs):
-                pair = []
-                for apps in (options.before.resolve(), options.after.resolve()):
-                    with tempfile.TemporaryDirectory() as folder:
-                        pair.append(run(command, apps, folder, threads, status))
-                pairs.append([seconds for seconds, _ in pair])
-                failed |= any(found is None for _, found in pair)
-            told = "" if not pair[0][1] else "same" if pair[0][1] == pair[1][1] else "other"
-            before, after = map(statistics.median, zip(*pairs))
-            print(f"| {name} | {threads or ''} | {before:.3g} | {after:.3g} | {statistics.median(b / a for b, a in pairs):.2f} | {told} |", flush=True)
-    return 1 if failed else 0
+    parser.add_argument("--busy", type=int, default=0, metavar="N")
+    parser.add_argument("--threads", type=int, nargs="+", default=[1, os.cpu_count(), 4 * os.cpu_count()], help="with --busy")
+    asked = parser.parse_args()
+    if len(asked.builds) != (1 if asked.busy else 2):
+        parser.error("BEFORE AFTER, or APPS --busy N")
+    print(f"{platform.node()}, {os.cpu_count()} cores, {datetime.date.today()}, medians of {asked.repeats}\n")
+    if asked.busy:
+        return 0 if beside_others(asked.builds[0], asked.busy, asked.threads, asked.repeats) else 1
+    cases = [case for case in asked.only if not (asked.quick and case in LONG)]
+    return 0 if side_by_side(asked.builds, cases, asked.repeats) else 1
 
 
 if __name__ == "__main__":

@@ -20,12 +20,12 @@ ADDITIONS = {
     "bond law": ("spring_bond.h", "dem/laws/spring_bond.h", [
         ("dem/laws/bond_law.h", '#include "dem/laws/parallel_bond.h"\n',
          '#include "dem/laws/parallel_bond.h"\n#include "dem/laws/spring_bond.h"\n'),
-        ("dem/laws/bond_law.h", "YieldingParallelBond>;", "YieldingParallelBond, SpringBond>;"),
+        ("dem/laws/bond_law.h", "ParallelBond, CohesiveBeam,", "ParallelBond, SpringBond, CohesiveBeam,"),
     ]),
     "bond law that remembers": ("yielding_bond.h", "dem/laws/yielding_bond.h", [
         ("dem/laws/bond_law.h", '#include "dem/laws/spring_bond.h"\n',
          '#include "dem/laws/spring_bond.h"\n#include "dem/laws/yielding_bond.h"\n'),
-        ("dem/laws/bond_law.h", "SpringBond>;", "SpringBond, YieldingBond>;"),
+        ("dem/laws/bond_law.h", "SpringBond,", "SpringBond, YieldingBond,"),
     ]),
     "contact law": ("cone_contact.h", "dem/laws/cone_contact.h", [
         ("dem/laws/contact_settings.h", "enum class NormalContact { linear, hertz };",
@@ -38,39 +38,43 @@ ADDITIONS = {
 MOST_FILES, MOST_LINES = 3, 10
 
 
-def copy_of(source, folder):
-    """The sources that the particle library needs, in a new folder."""
-    folder.mkdir(parents=True)
-    for name in COPIED:
-        if (source / name).is_dir():
-            shutil.copytree(source / name, folder / name)
-        else:
-            shutil.copy(source / name, folder / name)
+def copy_of(source, folder, names):
+    """The sources that are needed, in a new folder. Copies keep their times, so a build of an earlier copy would not follow them."""
+    shutil.rmtree(folder, ignore_errors=True)
+    copy = folder / "sources"
+    copy.mkdir(parents=True)
+    for name in names:
+        (shutil.copytree if (source / name).is_dir() else shutil.copy)(source / name, copy / name)
+    return copy
 
 
-def add(folder, what):
-    """Makes one addition; the files and lines that it took."""
-    own, place, changes = ADDITIONS[what]
-    shutil.copy(HERE / own, folder / place)
-    touched, lines = {place}, 0
+def add(folder, what, changes, own=None):
+    """Makes the changes (file, text, text in its place) and copies a file of its own (from, to); the files that they touch."""
+    if own is not None:
+        shutil.copy(own[0], folder / own[1])
     for name, old, new in changes:
-        path = folder / name
-        text = path.read_text()
+        text = (folder / name).read_text()
         if text.count(old) != 1:
             sys.exit(f"{name}: {old!r} stands there {text.count(old)} times; docs/extending.md and this test want looking at")
-        path.write_text(text.replace(old, new))
-        touched.add(name)
-        lines += 1
-    print(f"{what}: {len(touched)} files, {lines} lines outside its own")
-    return len(touched) <= MOST_FILES and lines <= MOST_LINES
+        (folder / name).write_text(text.replace(old, new))
+    files = {name for name, _, _ in changes} | ({own[1]} if own else set())
+    print(f"{what}: {len(files)} files, {len(changes)} places")
+    return files
 
 
-def run(*command):
-    """Ends the test where a command fails."""
+def run(*command, status=0):
+    """Output and messages of a command; ends the test where its status is another."""
     done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))}: status {done.returncode}\n{done.stdout[-3000:]}{done.stderr[-3000:]}")
-    return done.stdout
+    if done.returncode != status:
+        sys.exit(f"{' '.join(map(str, command))}: status {done.returncode}, expected {status}\n{done.stdout[-3000:]}{done.stderr[-3000:]}")
+    return done.stdout + done.stderr
+
+
+def build(copy, target, *options):
+    """Builds a target of the copy; where it is built."""
+    run("cmake", "-S", copy, "-B", copy.parent / "build", "-DCMAKE_BUILD_TYPE=Release", "-DPLATEN_TESTS=OFF", "-DPLATEN_BENCH=OFF", *options)
+    run("cmake", "--build", copy.parent / "build", "--target", target, "-j2")
+    return copy.parent / "build"
 
 
 def main():
@@ -78,20 +82,14 @@ def main():
     if len(sys.argv) < 3:
         sys.exit(__doc__)
     source, folder = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
-    compiler = [f"-DCMAKE_CXX_COMPILER={sys.argv[3]}"] if len(sys.argv) > 3 else []
-    # Copies keep their times, so a build of an earlier copy would not follow them.
-    shutil.rmtree(folder, ignore_errors=True)
-    copy = folder / "sources"
-    copy_of(source, copy)
-    small = all([add(copy, what) for what in ADDITIONS])
+    copy = copy_of(source, folder, COPIED)
+    small = all([len(add(copy, what, changes, (HERE / own, place))) <= MOST_FILES and len(changes) <= MOST_LINES
+                 for what, (own, place, changes) in ADDITIONS.items()])
     shutil.copy(HERE / "check_laws.cc", copy / "dem/laws/check_laws.cc")
     with open(copy / "dem/CMakeLists.txt", "a", encoding="utf-8") as cmake:
         cmake.write("add_executable(check_laws laws/check_laws.cc)\ntarget_link_libraries(check_laws PRIVATE platen_dem)\n")
-    build = folder / "build"
-    run("cmake", "-S", copy, "-B", build, "-DCMAKE_BUILD_TYPE=Release", "-DPLATEN_APPS=OFF", "-DPLATEN_TESTS=OFF",
-        "-DPLATEN_BENCH=OFF", *compiler)
-    run("cmake", "--build", build, "--target", "check_laws", "-j2")
-    print(run(build / "bin/check_laws").strip())
+    built = build(copy, "check_laws", "-DPLATEN_APPS=OFF", *(f"-DCMAKE_CXX_COMPILER={name}" for name in sys.argv[3:]))
+    print(run(built / "bin/check_laws").strip())
     return 0 if small else 1
 
 

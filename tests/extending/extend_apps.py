@@ -12,11 +12,12 @@ import csv
 import json
 import math
 import pathlib
-import shutil
 import signal
 import subprocess
 import sys
 import time
+
+from extend import add, build, copy_of, run
 
 COPIED = ["CMakeLists.txt", "cmake", "debian", "base", "dem", "dist", "fem", "coupling", "apps", "python"]
 # (file, text, text in its place): the declaration of the key, its use, the column.
@@ -70,40 +71,9 @@ STEP = 2e-7  # s, below what is stable
 STANDSTILL = 1e-4  # s
 
 
-def add(folder, name, changes, own=None):
-    """Makes the changes, and copies a file of its own (from, to); the files that they touch."""
-    if own is not None:
-        shutil.copy(own[0], folder / own[1])
-    for file, old, new in changes:
-        text = (folder / file).read_text()
-        if text.count(old) != 1:
-            sys.exit(f"{file}: {old!r} stands there {text.count(old)} times; docs/extending.md and this test want looking at")
-        (folder / file).write_text(text.replace(old, new))
-    files = {file for file, _, _ in changes} | ({own[1]} if own else set())
-    print(f"{name}: {len(files)} files, {len(changes)} places")
-    return files
-
-
-def run(*command, status=0):
-    """Output and messages of a command; ends the test where its status is another."""
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
-    if done.returncode != status:
-        sys.exit(f"{' '.join(map(str, command))}: status {done.returncode}, expected {status}\n{done.stdout[-3000:]}"
-                 f"{done.stderr[-3000:]}")
-    return done.stdout + done.stderr
-
-
-def build(source, folder, compiler):
+def extended(source, folder, compiler):
     """The new platen-compress."""
-    # Copies keep their times, so a build of an earlier copy would not follow them.
-    shutil.rmtree(folder, ignore_errors=True)
-    copy = folder / "sources"
-    copy.mkdir(parents=True)
-    for name in COPIED:
-        if (source / name).is_dir():
-            shutil.copytree(source / name, copy / name)
-        else:
-            shutil.copy(source / name, copy / name)
+    copy = copy_of(source, folder, COPIED)
     if len(add(copy, "scene key", KEY)) > KEY_FILES or len(COLUMN) > COLUMN_PLACES:
         sys.exit("a key or a column takes more places than docs/extending.md says")
     add(copy, "column", COLUMN)
@@ -112,10 +82,7 @@ def build(source, folder, compiler):
     parts = add(copy, "boundary with its key", BOUNDARY, jacket), add(copy, "stage with its key", STAGE, standstill)
     if max(map(len, parts)) > PART_FILES:
         sys.exit("a boundary or a stage touches more files than docs/extending.md says")
-    run("cmake", "-S", copy, "-B", folder / "build", "-DCMAKE_BUILD_TYPE=Release", "-DPLATEN_TESTS=OFF", "-DPLATEN_BENCH=OFF",
-        "-DPLATEN_PYTHON=OFF", *compiler)
-    run("cmake", "--build", folder / "build", "--target", "platen-compress", "-j2")
-    return folder / "build/apps/platen-compress"
+    return build(copy, "platen-compress", "-DPLATEN_PYTHON=OFF", *compiler) / "apps/platen-compress"
 
 
 def rows(folder):
@@ -189,7 +156,7 @@ def main():
     # The program is a link whose name says which one it is.
     source, folder, old = (pathlib.Path(a).absolute() for a in sys.argv[1:4])
     compiler = [f"-DCMAKE_CXX_COMPILER={sys.argv[4]}"] if len(sys.argv) > 4 else []
-    new = build(source, folder, compiler)
+    new = extended(source, folder, compiler)
     scene = source / "scenes/hydrostatic_concrete.prm"
     check_new(new, scene, folder / "new")
     check_older(old, new, scene, folder / "older")

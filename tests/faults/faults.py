@@ -1,15 +1,19 @@
 """What the scripts of this folder share: small runs, what they leave behind, and figures."""
 
+import argparse
+import contextlib
 import json
 import os
 import pathlib
 import shutil
 import subprocess
 import sys
+import tempfile
 
 os.environ.setdefault("PLATEN_CACHE", "none")  # what is tested is made here, not found
 SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent
-CRUSHED = SOURCE / "tests/apps/scenes/crushed.prm"
+SCENES = SOURCE / "tests/apps/scenes"
+CRUSHED = SCENES / "crushed.prm"
 
 # 129 spheres crushed in a second or two, most of it spent on writing.
 TINY = ["Specimen/Sphere radius = 1.7 mm"]
@@ -21,25 +25,72 @@ PLATENS = {
 }
 COSTS = ["threads", "wall_seconds", "setup_seconds", "particle_steps_per_second", "stage_seconds", "peak_memory_bytes",
          "bytes_in_columns_and_search", "trials"]
+CHECKPOINT = "step_????????????.platen"
+
+
+def parser(text):
+    """The command line of a script with this docstring."""
+    return argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
+
+
+@contextlib.contextmanager
+def scratch():
+    """A folder for as long as the block lasts."""
+    with tempfile.TemporaryDirectory() as folder:
+        yield pathlib.Path(folder)
+
+
+def skip(reason):
+    """Ends the script as one that cannot be run here."""
+    print("skipped: " + reason)
+    sys.exit(77)
 
 
 def clang():
     """Path of Clang; exits with status 77 where there is none."""
-    compiler = shutil.which("clang++") or shutil.which("clang++-14")
-    if compiler is None:
-        print("no clang++ is installed")
-        sys.exit(77)
-    return compiler
+    return shutil.which("clang++") or shutil.which("clang++-14") or skip("no clang++ is installed")
+
+
+def build_with(folder, options, compiler=None):
+    """Configures a build of its own in `folder`. CMake forgets all options where it is told another compiler than before."""
+    if compiler and not (folder / "CMakeCache.txt").exists():
+        options = [*options, f"-DCMAKE_CXX_COMPILER={compiler}", f"-DCMAKE_C_COMPILER={compiler.replace('++', '')}"]
+    subprocess.run(["cmake", "-S", SOURCE, "-B", folder, "-G", "Ninja", *options], check=True, stdout=sys.stderr)
 
 
 def command(program, scene, output, entries=(), *options):
     """Command line of an app that runs `scene` with further `entries` into the folder `output`."""
-    sets = [word for entry in entries for word in ("-s", entry)]
-    return [str(program), str(scene), "-o", str(output), "--quiet", *sets, *options]
+    return [str(program), str(scene), "-o", str(output), "--quiet", *sets(entries), *options]
+
+
+def sets(entries):
+    return [word for entry in entries for word in ("-s", entry)]
+
+
+def smallest_runs(build, folder, entries=()):
+    """Command lines of the apps on the smallest scenes, by name; `entries`: of those that crush."""
+    def app(name, scene, *further):
+        return command(build / "apps" / ("platen-" + name), scene, folder, further, "--overwrite")
+
+    crushed = [*TINY, *entries]
+    return {"pack": app("pack", CRUSHED, *TINY),
+            "bonds": app("bonds", SOURCE / "scenes/softening_bond.prm"),
+            "bar": app("bar", SCENES / "bar.prm", "Specimen/Radius = 3 mm", "Specimen/Height = 20 mm", "Bar test/Periods = 4"),
+            **{name: app("compress", CRUSHED, *further, *crushed) for name, further in PLATENS.items()},
+            "brazilian": app("brazilian", SCENES / "split.prm", *crushed)}
 
 
 def run(arguments, **keywords):
     return subprocess.run(arguments, stdin=subprocess.DEVNULL, capture_output=True, text=True, **keywords)
+
+
+def start(arguments, **keywords):
+    """A run that goes on beside this script, whose errors can be read."""
+    return subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, **keywords)
+
+
+def checkpoints(folder, pattern=CHECKPOINT):
+    return set((folder / "checkpoint").glob(pattern))
 
 
 def results(folder):
@@ -73,7 +124,7 @@ class Figures:
         print("FAILED " + text, flush=True)
         self.failures.append(text)
 
-    def note(self, what, value, allowed):
+    def note(self, what, value, allowed="any"):
         print(f"row {self.row} {what}: {value} ({allowed})", flush=True)
 
     def exactly(self, what, value, wanted):

@@ -10,7 +10,6 @@ that turns up read-only in a run is status 4. Exit status: 0; 1 where that does 
 Fifteen minutes.
 """
 
-import argparse
 import json
 import os
 import pathlib
@@ -19,14 +18,12 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import xml.etree.ElementTree
 
 import faults
 
 PAGE = 4096
-AMPLE = "256m"
-SCENES = faults.SOURCE / "tests/apps/scenes"
+AMPLE = "size=256m"
 MPIRUN = []  # empty: nothing is run on ranks
 
 
@@ -47,9 +44,9 @@ def cases():
         Case("platen-compress", "compress", crushed, tiny + ["Checkpoint/Every = 500"], ["checkpoint"]),
         Case("platen-compress", "sleeve", crushed, tiny + faults.PLATENS["sleeve"] + ["Checkpoint/Every = 500"],
              ["checkpoint"], 8),
-        Case("platen-brazilian", "brazilian", SCENES / "split.prm", tiny, ["checkpoint"], 8),
+        Case("platen-brazilian", "brazilian", faults.SCENES / "split.prm", tiny, ["checkpoint"], 8),
         Case("platen-pack", "pack", crushed, tiny),
-        Case("platen-bar", "bar", SCENES / "bar.prm", sizes=12),
+        Case("platen-bar", "bar", faults.SCENES / "bar.prm", sizes=12),
         Case("platen-bonds", "bonds", faults.SOURCE / "scenes/two_particles.prm"),
         Case("platen-calibrate", "abacus", crushed, tiny + [
             "Calibrate/Mode = abacus", "Calibrate/Modulus list = 18 GPa, 36 GPa",
@@ -57,7 +54,7 @@ def cases():
         Case("platen-calibrate", "calibration", crushed, tiny + [
             "Calibrate/Seeds = 1", "Calibrate/Verification seeds = 0",  # of 130 spheres another packing tells nothing
             "Loading/Axial rate = 0.1 m/s", "Calibrate/Target 1 = young modulus: 20 GPa", "Calibrate/Target 2 = strength_pa: 40 MPa"], ["trials.csv"], 12),
-        Study("platen-study", "study", SCENES / "study.prm", ["Study/Sphere radius list = 2 mm"], ["study.json"], 12),
+        Study("platen-study", "study", faults.SCENES / "study.prm", ["Study/Sphere radius list = 2 mm"], ["study.json"], 12),
         Report("platen-report", "report", None, sizes=5),
         OnRanks("platen-compress", "ranks", crushed, ["Loading/Axial rate = 2 m/s", "Loading/Target strain = 0.001",
                 "Checkpoint/Every = 40"], ["checkpoint"], 24),
@@ -88,10 +85,10 @@ class Report(Case):
 class Disk:
     """A tmpfs of so many bytes."""
 
-    def __init__(self, folder, size):
+    def __init__(self, folder, options):
         self.folder = folder
-        folder.mkdir(exist_ok=True)
-        subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "none", str(folder)], check=True)
+        folder.mkdir(parents=True, exist_ok=True)
+        subprocess.run(["mount", "-t", "tmpfs", "-o", options, "none", str(folder)], check=True)
 
     def __enter__(self):
         return self
@@ -99,12 +96,15 @@ class Disk:
     def __exit__(self, *error):
         subprocess.run(["umount", str(self.folder)], check=True)
 
-    def resize(self, size):
-        subprocess.run(["mount", "-o", f"remount,size={size}", str(self.folder)], check=True)
+    def change(self, options):
+        subprocess.run(["mount", "-o", f"remount,{options}", str(self.folder)], check=True)
 
     def pages(self):
         space = os.statvfs(self.folder)
         return (space.f_blocks - space.f_bfree) * space.f_frsize // PAGE
+
+
+ENDS = {".vtu": b"</VTKFile>\n", ".vti": b"</VTKFile>\n", ".png": b"IEND\xaeB`\x82", ".html": b"</html>\n", ".prm": b"end\n"}
 
 
 def is_whole(path):
@@ -118,15 +118,7 @@ def is_whole(path):
     elif path.suffix == ".pvd":
         frames = xml.etree.ElementTree.fromstring(data).iter("DataSet")
         return all((path.parent / frame.get("file")).is_file() for frame in frames)
-    elif path.suffix in (".vtu", ".vti"):
-        return data.endswith(b"</VTKFile>\n")
-    elif path.suffix == ".png":
-        return data.endswith(b"IEND\xaeB`\x82")
-    elif path.suffix == ".html":
-        return data.endswith(b"</html>\n")
-    elif path.suffix == ".prm":
-        return data.count(b"subsection") > 0 and data.endswith(b"end\n")
-    return True  # run.log; checkpoints are read by the resumed run
+    return data.endswith(ENDS.get(path.suffix, b""))  # run.log: any; checkpoints are read by the resumed run
 
 
 def torn_files(folder):
@@ -173,7 +165,7 @@ class Trial:
         say = lambda text: self.figures.fail(f"{case.name}, {pages} pages: {text}")
         with Disk(self.disk, AMPLE) as disk:
             folder = self.folder(case, before)
-            disk.resize(pages * PAGE)
+            disk.change(f"size={pages * PAGE}")
             done = faults.run(case.command(self.apps, folder))
             self.refused += done.returncode == 4
             if done.returncode != 4:
@@ -186,7 +178,7 @@ class Trial:
             self.kinds |= {re.sub(r"\d+", "N", name.replace(".part", "")) for name in named[-1:]}
             if torn := torn_files(folder):
                 say(f"not whole: {torn}")
-            disk.resize(AMPLE)
+            disk.change(AMPLE)
             goes_on = case.resumes and all((folder / name).exists() for name in case.resumes)
             again = faults.run(case.command(self.apps, folder, "--resume" if goes_on else "--overwrite"))
             if again.returncode == 2 and goes_on:  # nothing to go on from yet, and said so
@@ -198,22 +190,18 @@ class Trial:
 
     def read_only(self, case):
         """Refused at the start; status 4 where a folder of a run turns up so."""
-        with Disk(self.disk, AMPLE):
-            subprocess.run(["mount", "-o", "remount,ro", str(self.disk)], check=True)
+        def expect(what, status, word):
             done = faults.run(case.command(self.apps, self.disk / "results"))
-            if done.returncode != 2 or "permission" not in done.stderr:
-                self.figures.fail(f"{case.name}, read-only: status {done.returncode}: {done.stderr}")
-            subprocess.run(["mount", "-o", "remount,rw", str(self.disk)], check=True)
-            if "checkpoint" not in case.resumes:
-                return
-            for name in ("checkpoint", "frames"):
-                folder = self.disk / "results" / name
-                folder.mkdir(parents=True)
-                subprocess.run(["mount", "-t", "tmpfs", "-o", "ro", "none", str(folder)], check=True)
-                done = faults.run(case.command(self.apps, self.disk / "results"))
-                if done.returncode != 4 or "Read-only" not in done.stderr:
-                    self.figures.fail(f"{case.name}, {name} read-only: status {done.returncode}: {done.stderr}")
-                subprocess.run(["umount", str(folder)], check=True)
+            if done.returncode != status or word not in done.stderr:
+                self.figures.fail(f"{case.name}, {what}read-only: status {done.returncode}: {done.stderr}")
+
+        with Disk(self.disk, AMPLE) as disk:
+            disk.change("ro")
+            expect("", 2, "permission")
+            disk.change("rw")
+            for name in ("checkpoint", "frames") if "checkpoint" in case.resumes else ():
+                with Disk(self.disk / "results" / name, "ro"):
+                    expect(f"{name} ", 4, "Read-only")
                 shutil.rmtree(self.disk / "results")
 
 
@@ -227,7 +215,7 @@ def sizes_of(first, last, most, draw):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = faults.parser(__doc__)
     parser.add_argument("apps", type=pathlib.Path, help="folder of the apps")
     parser.add_argument("--only", nargs="+", metavar="CASE", help="names of cases: " + ", ".join(c.name for c in cases()))
     parser.add_argument("--sizes", type=int, default=24, help="disks a case [24]")
@@ -248,9 +236,9 @@ def main():
     figures = faults.Figures(37)
     draw = random.Random(options.seed)
     tried = 0
-    with tempfile.TemporaryDirectory() as scratch:
-        trial = Trial(options.apps.resolve(), pathlib.Path(scratch), figures)
-        run_before = pathlib.Path(scratch) / "run"
+    with faults.scratch() as scratch:
+        trial = Trial(options.apps.resolve(), scratch, figures)
+        run_before = scratch / "run"
         for case in cases():
             if options.only and case.name not in options.only or isinstance(case, OnRanks) and not MPIRUN:
                 continue
@@ -266,7 +254,7 @@ def main():
             tried += len(pages)
             print(f"{case.name}: {len(pages)} disks of {pages[0]} to {pages[-1]} pages; not written: "
                   + ", ".join(sorted(trial.kinds)), flush=True)
-    figures.note("disks too small", tried, "any")
+    figures.note("disks too small", tried)
     figures.exactly("runs on them that ended with status 4", trial.refused, tried)
     figures.exactly("faults of what they left or said", len(figures.failures), 0)
     return figures.status()

@@ -9,8 +9,8 @@ ends a fuzzer stays in BUILD. Exit status: 0; 1 where an input crashes, leaks, t
 there is no Clang. An hour on two cores.
 """
 
-import argparse
 import concurrent.futures
+import os
 import pathlib
 import re
 import resource
@@ -29,15 +29,6 @@ BLOCKS = ("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 9 \"foot\"
           "$Entities\n0 0 1 1\n1 0 0 0 1 1 0 1 9 0\n1 0 0 0 1 1 1 1 7 1 1\n$EndEntities\n"
           "$Nodes\n1 8 1 8\n3 1 0 8\n" + "".join(f"{k}\n" for k in range(1, 9)) + "\n".join(CORNERS) + "\n"
           "$EndNodes\n$Elements\n2 2 1 2\n2 1 3 1\n1 1 2 3 4\n3 1 5 1\n2 1 2 3 4 5 6 7 8\n$EndElements\n")
-
-
-def build(folder):
-    compiler = faults.clang()
-    if not (folder / "CMakeCache.txt").exists():  # CMake forgets all options where it is told another compiler
-        subprocess.run(["cmake", "-S", faults.SOURCE, "-B", folder, "-G", "Ninja", "-DPLATEN_FUZZ=ON",
-                        f"-DCMAKE_CXX_COMPILER={compiler}", f"-DCMAKE_C_COMPILER={compiler.replace('++', '')}"],
-                       check=True, stdout=sys.stderr)
-    subprocess.run(["cmake", "--build", folder], check=True, stdout=sys.stderr)
 
 
 def faulty_scenes():
@@ -86,7 +77,7 @@ def seed(folder):
     for name, text in {"singly": MESH, "in_blocks": BLOCKS}.items():
         (corpus["fuzz_mesh"] / name).write_text(text)
     checkpoint = folder / "seed.platen"
-    subprocess.run([folder / "bin/write_seed", checkpoint], check=True)
+    subprocess.run([folder / "bin/fuzz_checkpoint"], check=True, env={**os.environ, "PLATEN_FUZZ_SEED": str(checkpoint)})
     for first in (b"\0", b"\1"):
         (corpus["fuzz_checkpoint"] / f"whole_{first[0]}").write_bytes(first + checkpoint.read_bytes())
     words = {word for text in scenes.values() for word in re.findall(rb"[A-Za-z][A-Za-z ]{2,30}(?= =|\n|\"|$)", text)}
@@ -124,14 +115,15 @@ def is_slow(folder, name, path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = faults.parser(__doc__)
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--runs", type=int, default=1200000, help="of all fuzzers together")
     parser.add_argument("--only", nargs="+", choices=SHARES, default=list(SHARES))
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     folder = options.build.resolve()
-    build(folder)
+    faults.build_with(folder, ["-DPLATEN_FUZZ=ON"], faults.clang())
+    subprocess.run(["cmake", "--build", folder], check=True, stdout=sys.stderr)
     corpus = seed(folder)
     share = sum(SHARES[name] for name in options.only)
     figures = faults.Figures(34)

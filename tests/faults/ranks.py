@@ -1,33 +1,25 @@
 #!/usr/bin/env python3
 """Runs on several ranks of mpirun beside runs in one process, to the byte.
 
-    ranks.py kills FOLDER_OF_APPS --mpiexec MPIEXEC [--environment "NAME=VALUE ..."] [--kills 50] [--seed 1]
     ranks.py table FOLDER_OF_APPS --mpiexec MPIEXEC [--only CASE ...] [--ranks 2 3 4 7 16] [--delay LIBRARY]
     ranks.py large FOLDER_OF_APPS --mpiexec MPIEXEC [--only CASE ...] [--ranks 2 3 4 7 16]
 
-kills: a run on 1 to 4 ranks loses one of them by SIGKILL, is resumed on another number, loses one again and so on until it
-ends. At least two of five kills come while a checkpoint is being written, the others at any moment. table: boundaries and
-laws on some 3 000 spheres (7 blocks); with a library of delays (tests/dist/delay) each message waits for a random moment.
-large: the boundaries and laws with more than 10 000 spheres (16 ranks have work), 1 and 2 threads a rank. One line of
-result a run. Exit status: 0; 1 where a byte differs, a run hangs or ends otherwise. kills takes ten minutes on two idle
-cores, the table an hour, large two.
+table: boundaries and laws on some 3 000 spheres (7 blocks); with a library of delays (tests/dist/delay) each message waits for a random moment.
+large: the boundaries and laws with more than 10 000 spheres (16 ranks have work), 1 and 2 threads a rank. One line of result a run. Exit status: 0;
+1 where a byte differs, a run hangs or ends otherwise. The table takes an hour on two idle cores, large two. Kills of ranks: stops.py.
 """
 
-import argparse
 import json
 import os
 import pathlib
-import random
 import shutil
-import signal
 import subprocess
 import sys
-import tempfile
 import time
 
 import faults
+from stops import unlike
 
-SCENES = faults.SOURCE / "tests/apps/scenes"
 PATIENCE = 1800  # s: a run that takes longer hangs
 RANKS = [2, 3, 4, 7, 16]
 SHORT = ["Loading/Axial rate = 2 m/s", "Loading/Target strain = 0.004", "Loading/Stop at residual = 0",
@@ -46,7 +38,7 @@ CLASS_TWO = faults.SOURCE / "scenes/class_two_concrete.prm"
 
 def crushed(*entries):
     """The test cylinder with some 3 000 spheres and 600 steps."""
-    return "platen-compress", SCENES / "crushed.prm", ["Specimen/Sphere radius = 0.6 mm", *SHORT, *entries]
+    return "platen-compress", faults.CRUSHED, ["Specimen/Sphere radius = 0.6 mm", *SHORT, *entries]
 
 
 CASES = {
@@ -74,10 +66,10 @@ CASES = {
     "no_rotation": crushed("Effects/Rotation = off"),
     "start_strain": crushed("Loading/Start strain = 4e-4"),
     "tension": crushed("Loading/Test = tension", "Platens/Attachment = glued", "Loading/Target strain = 0.002"),
-    "bending": ("platen-compress", SCENES / "bent.prm", []),
-    "notched": ("platen-compress", SCENES / "bent.prm", ["Specimen/Notch depth = 4 mm", "Loading/Stage 1/Axial = cmod rate 20 mm/s",
+    "bending": ("platen-compress", faults.SCENES / "bent.prm", []),
+    "notched": ("platen-compress", faults.SCENES / "bent.prm", ["Specimen/Notch depth = 4 mm", "Loading/Stage 1/Axial = cmod rate 20 mm/s",
                                                          "Loading/Stage 1/Until = cmod 20 um"]),
-    "brazilian": ("platen-brazilian", SCENES / "split.prm", []),
+    "brazilian": ("platen-brazilian", faults.SCENES / "split.prm", []),
     "six_platens": ("platen-compress", TRUE_TRIAXIAL, ["Specimen/Sphere radius = 2.4 mm"]),
     "stages": ("platen-compress", STAGES, ["Specimen/Sphere radius = 2.8 mm"]),
     "class_two": ("platen-compress", CLASS_TWO, ["Specimen/Sphere radius = 2.8 mm"]),
@@ -96,7 +88,7 @@ class Runs(faults.Figures):
     """Starts runs in one process and on ranks."""
 
     def __init__(self, options):
-        super().__init__(63 if options.what == "kills" else 62)
+        super().__init__(62)
         self.compared = 0
         self.apps, self.mpiexec, self.delay = options.apps, options.mpiexec, options.delay
         self.environment = dict(os.environ, **dict(word.split("=", 1) for word in options.environment.split()))
@@ -107,50 +99,14 @@ class Runs(faults.Figures):
         delayed = ["env", f"LD_PRELOAD={self.delay}", "PLATEN_DELAY_US=200", f"PLATEN_DELAY_SEED={ranks}"]
         return line if ranks == 0 else [str(self.mpiexec), "-n", str(ranks), *(delayed if self.delay else []), *line]
 
-    def start(self, *arguments):
-        return subprocess.Popen(self.command(*arguments), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                stderr=subprocess.PIPE, text=True, env=self.environment)
-
     def whole(self, *arguments):
         """Status, what it said and seconds of a run that nobody disturbs; status None: it hangs."""
         begin = time.monotonic()
-        process = self.start(*arguments)
-        status, said = end_of(process)
-        return status, said, time.monotonic() - begin
-
-    def unlike(self, one, other):
-        """Files that two runs do not have alike, and what differs between their newest checkpoints but for seconds."""
-        names = faults.difference(faults.results(one), faults.results(other))
-        if (one / "checkpoint").exists():
-            compared = faults.run([str(self.apps / "platen"), "state", str(one), str(other)])
-            if compared.returncode not in (0, 1) or (compared.returncode == 1 and "wall_seconds" not in compared.stdout):
-                names.append("checkpoint: " + compared.stdout.strip() + compared.stderr.strip())
-        return names
-
-
-def end_of(process, patience=PATIENCE):
-    try:
-        said = process.communicate(timeout=patience)[1]
-        return process.returncode, said
-    except subprocess.TimeoutExpired:
-        process.kill()
-        return None, process.communicate()[1]
-
-
-def process_of_rank(mpirun, rank):
-    """Process id of a rank; None where it has ended. Ranks are the children of mpirun."""
-    try:
-        for child in pathlib.Path(f"/proc/{mpirun}/task/{mpirun}/children").read_text().split():
-            words = pathlib.Path(f"/proc/{child}/environ").read_bytes().split(b"\0")
-            if f"OMPI_COMM_WORLD_RANK={rank}".encode() in words:
-                return int(child)
-    except (FileNotFoundError, ProcessLookupError, PermissionError):
-        pass
-    return None
-
-
-def checkpoints(folder, pattern):
-    return set((folder / "checkpoint").glob(pattern))
+        try:
+            done = faults.run(self.command(*arguments), env=self.environment, timeout=PATIENCE)
+            return done.returncode, done.stderr, time.monotonic() - begin
+        except subprocess.TimeoutExpired as late:
+            return None, str(late.stderr), PATIENCE
 
 
 def compare(runs, name, case, cuts, scratch):
@@ -170,7 +126,7 @@ def compare(runs, name, case, cuts, scratch):
         if on_ranks != status:
             runs.fail(f"{name} on {ranks} ranks of {threads} threads: status {on_ranks}, not {status}: {said[-2000:]}")
             continue
-        files = runs.unlike(whole, folder)
+        files = unlike(runs.apps, whole, folder)
         runs.compared += 1
         print(f"{name}: {ranks} ranks of {threads} threads, {seconds:.1f} s, {'the same bytes' if not files else 'unlike'}", flush=True)
         if files:
@@ -179,112 +135,30 @@ def compare(runs, name, case, cuts, scratch):
     shutil.rmtree(whole)
 
 
-class Kill:
-    """One kill: when, of which rank, and what it left."""
-
-    def __init__(self, draw, wants_write):
-        self.ranks, self.in_write = draw.randint(2, 4), wants_write
-        # The writer itself half of the times that it writes.
-        self.victim = 0 if wants_write and draw.random() < 0.5 else draw.randrange(self.ranks)
-        self.delay = draw.uniform(0, 2)
-        self.hit_a_write = False
-
-    def wait(self, process, folder, before):
-        """Until the run is at work, and it is time; false where it ended before."""
-        while not checkpoints(folder, "step_????????????.platen") - before:
-            if process.poll() is not None:
-                return False
-            time.sleep(1e-3)
-        until = time.monotonic() + self.delay
-        while process.poll() is None:
-            if time.monotonic() > until and (not self.in_write or checkpoints(folder, "*.part.platen")):
-                return True
-            if time.monotonic() < until:
-                time.sleep(5e-3)
-        return False
-
-    def strike(self, process, folder):
-        victim = process_of_rank(process.pid, self.victim)
-        if victim is None:
-            return
-        os.kill(victim, signal.SIGKILL)
-        self.hit_a_write = bool(checkpoints(folder, "*.part.platen"))
-
-
-def kill_and_resume(runs, options, scratch):
-    draw = random.Random(options.seed)
-    case = ("platen-compress", SCENES / "crushed.prm", [*SHORT, "Checkpoint/Every = 4"])
-    whole = scratch / "whole"
-    status, said, _ = runs.whole(case, whole, 0)
-    if status != 0:
-        return runs.fail(f"in one process: status {status}: {said}")
-    kills = in_write = chains = longest = 0
-    while (kills < options.kills or in_write < 0.4 * options.kills) and not runs.failures:
-        folder = scratch / f"chain_{chains}"
-        first, ended = True, False
-        while not ended and not runs.failures:
-            kill = Kill(draw, wants_write=draw.random() < 0.6)
-            before = checkpoints(folder, "step_????????????.platen")
-            process = runs.start(case, folder, kill.ranks, 1, *([] if first else ["--resume"]))
-            due = kill.wait(process, folder, before) and kills < 2 * options.kills
-            struck = time.monotonic()
-            if due:
-                kill.strike(process, folder)
-            status, said = end_of(process)
-            seconds = time.monotonic() - struck
-            ended, first = status == 0, False
-            if not ended:
-                kills += 1
-                in_write += kill.hit_a_write
-                longest = max(longest, seconds)
-            if not ended and (status != 128 + signal.SIGKILL or seconds > 60):
-                runs.fail(f"kill {kills}, rank {kill.victim} of {kill.ranks}: status {status} after {seconds:.0f} s: {said}")
-            if "checkpoint not used" in said:
-                runs.fail(f"after {kills} kills a checkpoint was not whole: {said}")
-        chains += 1
-        files = runs.unlike(whole, folder) if ended else []
-        print(f"chain {chains}: {kills} kills so far, {in_write} of them in the write of a checkpoint, "
-              f"{'the same bytes' if not files else 'unlike'}", flush=True)
-        if files:
-            runs.fail(f"after {kills} kills: not as in the run that was not killed: {files}")
-        shutil.rmtree(folder)
-    runs.at_least("kills of a rank", kills, options.kills)
-    runs.at_least("kills while a checkpoint was written", in_write, 0.4 * options.kills)
-    runs.note("runs that ended after their kills, compared with one that was not killed", chains, "any")
-    runs.note("seconds that mpirun went on after a kill, at most", round(longest, 1), "< 60")
-    runs.exactly("kills without a whole checkpoint, another status, runs unlike", len(runs.failures), 0)
-
-
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=["kills", "table", "large"])
+    parser = faults.parser(__doc__)
+    parser.add_argument("what", choices=["table", "large"])
     parser.add_argument("apps", type=pathlib.Path, help="folder of the apps")
     parser.add_argument("--mpiexec", required=True)
     parser.add_argument("--environment", default="", help="for mpirun: NAME=VALUE ...")
     parser.add_argument("--delay", default="", help="library that delays messages")
     parser.add_argument("--only", nargs="*", choices=list(CASES), default=[], help="of table and large")
     parser.add_argument("--ranks", type=int, nargs="*", default=RANKS)
-    parser.add_argument("--kills", type=int, default=50)
-    parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     runs = Runs(options)
-    with tempfile.TemporaryDirectory() as scratch:
-        scratch = pathlib.Path(scratch)
-        if options.what == "kills":
-            kill_and_resume(runs, options, scratch)
-        else:
-            cases = CASES if options.what == "table" else LARGE
-            for name in options.only or cases:
-                # The small ones on one thread but for two ranks, the large ones on one and two.
-                cuts = [(ranks, threads) for ranks in options.ranks for threads in (1, 2)
-                        if options.what == "large" or threads == (2 if ranks == 2 else 1)]
-                if options.what == "large":
-                    cuts.insert(0, (1, 2))
-                compare(runs, name, cases[name], cuts, scratch)
-            size = "above 10 000" if options.what == "large" else "some 3 000"
-            runs.note(f"runs on ranks compared, {size} spheres{', late messages' if runs.delay else ''}", runs.compared, "any")
-            runs.exactly(f"runs on ranks unlike, {size} spheres{', late messages' if runs.delay else ''}",
-                         len(runs.failures), 0)
+    with faults.scratch() as scratch:
+        cases = CASES if options.what == "table" else LARGE
+        for name in options.only or cases:
+            # The small ones on one thread but for two ranks, the large ones on one and two.
+            cuts = [(ranks, threads) for ranks in options.ranks for threads in (1, 2)
+                    if options.what == "large" or threads == (2 if ranks == 2 else 1)]
+            if options.what == "large":
+                cuts.insert(0, (1, 2))
+            compare(runs, name, cases[name], cuts, scratch)
+        size = "above 10 000" if options.what == "large" else "some 3 000"
+        late = ", late messages" if runs.delay else ""
+        runs.note(f"runs on ranks compared, {size} spheres{late}", runs.compared)
+        runs.exactly(f"runs on ranks unlike, {size} spheres{late}", len(runs.failures), 0)
     return runs.status()
 
 

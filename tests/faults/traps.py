@@ -8,13 +8,11 @@ tests that want such numbers: what is not finite on its way in, or what grows be
 traps in the quick tests. Exit status: 0; 1 where another one traps or fails. Ten minutes.
 """
 
-import argparse
 import os
 import pathlib
 import re
 import subprocess
 import sys
-import tempfile
 
 import faults
 
@@ -43,28 +41,8 @@ def tests_of(program):
             suite = name
 
 
-def app_runs(build, folder):
-    """Command lines by name."""
-    apps, scenes = build / "apps", faults.SOURCE / "tests/apps/scenes"
-
-    def app(name, scene, entries=()):
-        return faults.command(apps / ("platen-" + name), scene, folder, entries, "--overwrite")
-
-    crushed = faults.TINY + ["Checkpoint/Every = 100"]
-    elastic = crushed + faults.PLATENS["elastic"]
-    return {"pack": app("pack", faults.CRUSHED, faults.TINY),
-            "bonds": app("bonds", faults.SOURCE / "scenes/softening_bond.prm"),
-            "bar": app("bar", scenes / "bar.prm", ["Specimen/Radius = 3 mm", "Specimen/Height = 20 mm",
-                                                   "Bar test/Periods = 4"]),
-            "rigid": app("compress", faults.CRUSHED, crushed),
-            "elastic": app("compress", faults.CRUSHED, elastic),
-            "quasi-static": app("compress", faults.CRUSHED, elastic + ["Platens/Motion = quasi-static"]),
-            "sleeve": app("compress", faults.CRUSHED, crushed + faults.PLATENS["sleeve"]),
-            "brazilian": app("brazilian", scenes / "split.prm", faults.TINY)}
-
-
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = faults.parser(__doc__)
     parser.add_argument("library", type=pathlib.Path)
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--only", nargs="+", metavar="PROGRAM", help="these test programs, and no apps [all, and apps]")
@@ -91,11 +69,13 @@ def main():
             look(test, [str(build / "bin" / program), "--gtest_filter=" + test])
         print(f"{program}: {ran} runs so far, {trapped} trapped", flush=True)
     if not options.only:
-        with tempfile.TemporaryDirectory() as folder:
-            for name, command in app_runs(build, pathlib.Path(folder) / "results").items():
+        with faults.scratch() as folder:
+            runs = faults.smallest_runs(build, folder / "results", ["Checkpoint/Every = 100"])
+            runs["quasi-static"] = runs["elastic"] + faults.sets(["Platens/Motion = quasi-static"])
+            for name, command in runs.items():
                 look(name, command)
-    figures.note("tests and runs of apps", ran, "any")
-    figures.note("of them that make such numbers on purpose", meant, "any")
+    figures.note("tests and runs of apps", ran)
+    figures.note("of them that make such numbers on purpose", meant)
     figures.exactly("traps beside these", trapped, 0)
     return figures.status()
 

@@ -68,29 +68,11 @@ const std::regex &scene_entry() {
   return words;
 }
 
-// Blanks comments alone, keeps line breaks.
-std::string without_comments(const std::string &text) {
-  static const std::regex parts(R"re(("(?:\\.|[^"\\\n])*")|//[^\n]*|/\*[\s\S]*?\*/)re");
+// Blanks what the pattern finds, except for its first group; keeps line breaks.
+std::string blanked(const std::string &text, const std::regex &pattern) {
   std::string code;
   auto from = text.cbegin();
-  for (std::sregex_iterator match(text.begin(), text.end(), parts), end; match != end; ++match) {
-    code.append(from, (*match)[0].first);
-    if ((*match)[1].matched)
-      code += match->str(1);
-    else
-      code.append(static_cast<std::size_t>(std::count((*match)[0].first, (*match)[0].second, '\n')), '\n');
-    from = (*match)[0].second;
-  }
-  return code.append(from, text.cend());
-}
-
-// Blanks comments and literals, keeps line breaks and includes (whose quotes are no literals).
-std::string code_only(const std::string &text) {
-  static const std::regex noise(
-      R"re((#\s*include\s*"[^"\n]*")|//[^\n]*|/\*[\s\S]*?\*/|"(?:\\.|[^"\\\n])*")re");
-  std::string code;
-  auto from = text.cbegin();
-  for (std::sregex_iterator match(text.begin(), text.end(), noise), end; match != end; ++match) {
+  for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match) {
     code.append(from, (*match)[0].first);
     if ((*match)[1].matched)
       code += match->str(1);
@@ -110,10 +92,14 @@ std::vector<Violation> check_source(const std::string &folder, const std::string
   const auto rule = forbidden_includes().find(folder);
   if (rule == forbidden_includes().end()) return violations;
 
-  std::istringstream lines(code_only(text));
-  std::string line;
+  static const std::regex comments(R"re(("(?:\\.|[^"\\\n])*")|//[^\n]*|/\*[\s\S]*?\*/)re");
+  // Literals too, but for the quotes of includes.
+  static const std::regex noise(
+      R"re((#\s*include\s*"[^"\n]*")|//[^\n]*|/\*[\s\S]*?\*/|"(?:\\.|[^"\\\n])*")re");
+  std::istringstream lines(blanked(text, noise)), literals(blanked(text, comments));
+  std::string line, literal;
   std::smatch match;
-  for (int number = 1; std::getline(lines, line); ++number) {
+  for (int number = 1; std::getline(lines, line) && std::getline(literals, literal); ++number) {
     if (std::regex_search(line, match, include)) {
       const std::string path = match[1];
       if (std::regex_search(path, rule->second))
@@ -123,15 +109,11 @@ std::vector<Violation> check_source(const std::string &folder, const std::string
     } else if (std::regex_search(line, match, file_opening())) {
       violations.push_back({file, number, folder + "/ must not open files: " + line});
     }
-  }
-  std::istringstream code(code_only(text));
-  for (int number = 1; std::getline(code, line); ++number)
     if (!is_measure(file) && std::regex_search(line, match, of_processor()))
       violations.push_back({file, number, match.str() + ") differs by processor: base/portable.h"});
-  std::istringstream literals(without_comments(text));
-  for (int number = 1; std::getline(literals, line); ++number)
-    if (std::regex_search(line, match, scene_entry()))
+    if (std::regex_search(literal, match, scene_entry()))
       violations.push_back({file, number, folder + "/ must not name an entry of a scene: " + match.str()});
+  }
   return violations;
 }
 
