@@ -1,6 +1,5 @@
 // Frames of a run as ParaView reads them: arrays that are named, and numbers that agree with each other and
 // with the tables.
-#include <gtest/gtest.h>
 #include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -15,23 +14,17 @@
 #include <regex>
 #include <set>
 
-#include "apps/program.h"
-#include "apps/scratch_folder.h"
+#include "apps/crushed.h"
 
-namespace platen::apps {
+namespace platen::apps::testing {
 namespace {
 
-using namespace testing;
-
-class Frames : public ScratchFolder {
+class FramesOfRun : public Crushed {
 protected:
-  void SetUp() override {
-    const Outcome outcome = run_compress({test_scene("crushed.prm"), "-o", "run", "--quiet"}, folder_);
-    ASSERT_EQ(outcome.status, 0) << outcome.error;
-  }
+  FramesOfRun() : Crushed("crushed.prm", Frames::as_in_the_scene), run_(crushed_once()) {}
   fs::path last(const std::string &series) const {
     fs::path found;
-    for (const auto &entry : fs::directory_iterator(folder_ / "run/frames"))
+    for (const auto &entry : fs::directory_iterator(run_ / "frames"))
       if (entry.path().filename().string().rfind(series + "_", 0) == 0) found = std::max(found, entry.path());
     return found;
   }
@@ -41,6 +34,8 @@ protected:
     reader->Update();
     return reader->GetOutput();
   }
+  double last_of(const char *name) const { return column_of(run_ / "history.csv", name).back(); }
+  const fs::path run_;
 };
 
 vtkDataArray &array(vtkDataSetAttributes *of, const char *name) {
@@ -57,14 +52,13 @@ double size(const std::array<double, 3> &v) {
   return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-TEST_F(Frames, are_what_the_tables_tell) {
+TEST_F(FramesOfRun, are_what_the_tables_tell) {
   // Scalars name an array that is there.
   for (const char *series : {"specimen", "bonds", "contacts", "platens"}) {
-    std::ifstream stream(last(series), std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    const std::string text = content_of(last(series));
     std::smatch found;
     ASSERT_TRUE(std::regex_search(text, found, std::regex("Scalars=\"([^\"]+)\""))) << series;
-    EXPECT_NE(text.find("Name=\"" + found[1].str() + "\""), std::string::npos) << series << ": " << found[1];
+    EXPECT_TRUE(contains(text, "Name=\"" + found[1].str() + "\"")) << series << ": " << found[1];
   }
 
   const auto specimen = read(last("specimen")), bonds = read(last("bonds")),
@@ -75,7 +69,7 @@ TEST_F(Frames, are_what_the_tables_tell) {
     ASSERT_GE(array(spheres, "coordination").GetComponent(k, 0),
               array(spheres, "intact_bonds").GetComponent(k, 0));
   }
-  double touching = 0, history_touching = column_of(folder_ / "run/history.csv", "grain_contacts").back();
+  double touching = 0, history_touching = last_of("grain_contacts");
   for (vtkIdType k = 0; k < specimen->GetNumberOfPoints(); ++k)
     touching +=
         array(spheres, "coordination").GetComponent(k, 0) - array(spheres, "intact_bonds").GetComponent(k, 0);
@@ -110,7 +104,7 @@ TEST_F(Frames, are_what_the_tables_tell) {
 
   // Rigid platens show how far they have gone: together what the specimen is shortened by.
   std::set<fs::path> platens; // two of each frame
-  for (const auto &entry : fs::directory_iterator(folder_ / "run/frames"))
+  for (const auto &entry : fs::directory_iterator(run_ / "frames"))
     if (entry.path().filename().string().rfind("platens_", 0) == 0) platens.insert(entry.path());
   double up = 0, down = 0; // m
   for (auto file = std::prev(platens.end(), 2); file != platens.end(); ++file) {
@@ -121,7 +115,7 @@ TEST_F(Frames, are_what_the_tables_tell) {
       ASSERT_DOUBLE_EQ(displacement.GetComponent(k, 2), along);
     up = std::max(up, along), down = std::min(down, along);
   }
-  const double closure = 0.02 * column_of(folder_ / "run/history.csv", "axial_strain_platen").back();
+  const double closure = 0.02 * last_of("axial_strain_platen");
   EXPECT_GT(closure, 1e-4);
   EXPECT_NEAR(up - down, closure, 1e-6 * closure);
 
@@ -129,19 +123,16 @@ TEST_F(Frames, are_what_the_tables_tell) {
   const auto of_frame = [&](const char *name) {
     return specimen->GetFieldData()->GetArray(name)->GetComponent(0, 0);
   };
-  const auto last_of = [&](const char *column) {
-    return column_of(folder_ / "run/history.csv", column).back();
-  };
   EXPECT_EQ(of_frame("TimeValue"), last_of("time_s"));
   EXPECT_NEAR(of_frame("axial_strain"), last_of("axial_strain_platen"), 1e-12);
   const double stress = 0.5 * (last_of("axial_stress_top_pa") + last_of("axial_stress_bottom_pa"));
   EXPECT_NEAR(of_frame("axial_stress"), stress, 1e-9 * std::abs(stress));
 
   // A disc for each row of cracks.csv, of its area and across its normal.
-  const auto cracks = read(folder_ / "run/cracks.vtu");
-  const std::vector<double> area = column_of(folder_ / "run/cracks.csv", "area_m2"),
-                            time = column_of(folder_ / "run/cracks.csv", "time_s"),
-                            z = column_of(folder_ / "run/cracks.csv", "z_m");
+  const auto cracks = read(run_ / "cracks.vtu");
+  const std::vector<double> area = column_of(run_ / "cracks.csv", "area_m2"),
+                            time = column_of(run_ / "cracks.csv", "time_s"),
+                            z = column_of(run_ / "cracks.csv", "z_m");
   ASSERT_EQ(cracks->GetNumberOfCells(), static_cast<vtkIdType>(area.size()));
   ASSERT_GT(area.size(), 500u);
   for (vtkIdType k = 0; k < cracks->GetNumberOfCells(); k += 37) {
@@ -161,14 +152,10 @@ TEST_F(Frames, are_what_the_tables_tell) {
 }
 
 // The loop makes several steps at a time: none of them passes over a row that is due.
-TEST_F(ScratchFolder, rows_by_time_are_the_first_step_at_or_after_each_multiple) {
+TEST_F(Crushed, rows_by_time_are_the_first_step_at_or_after_each_multiple) {
   const auto times = [&](const std::string &every) {
-    const Outcome outcome =
-        run_compress({test_scene("crushed.prm"), "-o", "run", "--quiet", "--overwrite", "-s",
-                      "Output/Every = " + every, "-s", "Loading/Target strain = 0.0005"},
-                     folder_);
-    EXPECT_EQ(outcome.status, 0) << outcome.error;
-    return column_of(folder_ / "run/history.csv", "time_s");
+    crush("run", {"Output/Every = " + every, "Loading/Target strain = 0.0005"}, {"--overwrite"});
+    return column("run", "time_s");
   };
   const std::vector<double> all = times("1"), rows = times("3.7 us");
   std::vector<double> due{0};
@@ -179,4 +166,4 @@ TEST_F(ScratchFolder, rows_by_time_are_the_first_step_at_or_after_each_multiple)
 }
 
 } // namespace
-} // namespace platen::apps
+} // namespace platen::apps::testing

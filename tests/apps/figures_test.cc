@@ -12,9 +12,12 @@
 
 #include "apps/scene/parameters.h"
 #include "apps/scene/sections.h"
+#include "apps/scratch_folder.h"
 
 namespace platen::apps {
 namespace {
+
+using namespace testing;
 
 // Of docs/outputs.md: what its tables have in the first column, to the units beside it.
 std::map<std::string, std::string> names_of_page() {
@@ -42,8 +45,8 @@ TEST(Figures, stand_on_the_page_of_outputs_with_their_units) {
     const auto whole = names.find(figure.key), part = names.find(last_part(figure.key));
     const auto found = whole != names.end() ? whole : part;
     ASSERT_NE(found, names.end()) << figure.key << " is not on docs/outputs.md";
-    EXPECT_NE(found->second.find(" " + figure.unit), std::string::npos)
-        << figure.key << " is in " << figure.unit << ", the page says" << found->second;
+    EXPECT_TRUE(contains(found->second, " " + figure.unit))
+        << figure.key << " is in " << figure.unit << ", the page says";
   }
 }
 

@@ -17,10 +17,13 @@
 #include "apps/run/results.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/run/summary_of_run.h"
+#include "apps/scratch_folder.h"
 #include "base/largest.h"
 
 namespace platen::apps {
 namespace {
+
+using namespace testing;
 
 constexpr double infinite = std::numeric_limits<double>::infinity(),
                  nan = std::numeric_limits<double>::quiet_NaN();
@@ -41,7 +44,7 @@ TEST(Largest, is_no_number_where_one_of_them_is_none) {
 }
 
 // A cylinder in a cell, of few spheres: what samples say of it is made up.
-class NotFinite : public testing::Test {
+class NotFinite : public ::testing::Test {
 protected:
   static Scene read(const std::vector<std::string> &more) {
     std::vector<std::string> overrides{"Specimen/Sphere radius = 2.2 mm", "Loading/Confinement = particles",
@@ -150,8 +153,7 @@ TEST_F(NotFinite, no_figure_is_valid_that_rests_on_a_column_with_a_number_that_i
               << row;
           if (!s["validity"].contains(figure)) continue;
           const std::string words = s["validity"][figure].dump();
-          EXPECT_NE(words.find(std::string("not finite in ") + column.name), std::string::npos)
-              << figure << ": " << words;
+          EXPECT_TRUE(contains(words, std::string("not finite in ") + column.name)) << figure;
         }
       }
   }
@@ -189,8 +191,7 @@ TEST_F(WithoutLedger, energies_are_missing_and_speak_against_no_figure) {
   const Json s = summary(samples);
   EXPECT_EQ(s["validity"]["strength_pa"], "valid") << s["validity"];
   samples[9].bond = infinite;
-  EXPECT_NE(summary(samples)["validity"]["strength_pa"].dump().find("not finite in bond_energy_j"),
-            std::string::npos);
+  EXPECT_TRUE(contains(summary(samples)["validity"]["strength_pa"].dump(), "not finite in bond_energy_j"));
 }
 
 // Of a run that was cut off before its peak nobody knows how fast it would have come there.
@@ -237,13 +238,13 @@ TEST_F(NotFinite, a_number_of_the_engine_stops_the_run_by_the_name_of_its_column
   for (const double bad : {nan, infinite}) {
     const double friction = layer.friction_work;
     layer.friction_work = bad;
-    EXPECT_NE(words().find("not finite: friction_work_j of history.csv is"), std::string::npos) << words();
-    EXPECT_NE(words().find("at step 50, time "), std::string::npos) << words();
+    EXPECT_TRUE(contains(words(), "not finite: friction_work_j of history.csv is"));
+    EXPECT_TRUE(contains(words(), "at step 50, time "));
     layer.friction_work = friction;
   }
   EXPECT_EQ(words(), "");
   problem_.model.particles.velocity[3].x = nan;
-  EXPECT_NE(words().find("not finite: kinetic_energy_j"), std::string::npos) << words();
+  EXPECT_TRUE(contains(words(), "not finite: kinetic_energy_j"));
 }
 
 } // namespace

@@ -20,10 +20,11 @@ protected:
   // on one thread unless `more` says otherwise.
   static std::vector<std::string> crush(const std::string &name, const std::vector<std::string> &more = {});
 
-  // Runs to the end; what it printed is one text for each stream.
-  Outcome run(const std::vector<std::string> &command) const;
-  // The run on one process that others are compared with, and on so many ranks; each must end well.
-  void run_whole(const std::string &name, const std::vector<std::string> &more = {}) const;
+  Outcome run(const std::vector<std::string> &command) const { return run_program(command, folder_); }
+  // The run on one process that others are compared with, made once for all tests of this process; its
+  // folder.
+  std::filesystem::path whole(const std::vector<std::string> &more = {}) const;
+  // On so many ranks; it must end well.
   void run_on(int ranks, const std::string &name, const std::vector<std::string> &more = {},
               bool delayed = false) const;
   // Starts a run on ranks and does `act` with it once history.csv has so many lines; its status.
@@ -39,7 +40,7 @@ protected:
 
   // Files and blocks of checkpoints in which two runs differ, but for what tells time and machine; "" where
   // they agree.
-  std::string unlike(const std::string &one, const std::string &other) const;
+  std::string unlike(const std::filesystem::path &one, const std::string &other) const;
 };
 
 // Of the processes that mpirun has started; throws where there is none.

@@ -10,7 +10,7 @@
 #include "apps/output/csv_writer.h"
 #include "apps/output/errors.h"
 #include "apps/output/numbers.h"
-#include "scratch_folder.h"
+#include "apps/scratch_folder.h"
 
 namespace platen::apps {
 namespace {
@@ -136,7 +136,7 @@ TEST_F(Csv, that_another_program_has_changed_takes_no_further_row) {
     meddle();
     const std::string said =
         message_of<OutputError>([&] { by_sync ? csv.sync() : static_cast<void>(write_row(csv, 2)); });
-    EXPECT_TRUE(contains(said, path_.string() + ": has been ")) << said;
+    EXPECT_TRUE(contains(said, path_.string() + ": has been "));
     fs::remove(path_);
     return said;
   };
@@ -206,7 +206,7 @@ TEST_F(Csv, a_whole_table_is_there_with_all_rows_or_not_at_all) {
 
 TEST_F(Csv, in_no_folder_says_so) {
   const std::string text = message_of<OutputError>([&] { CsvWriter(folder_ / "none" / "a.csv", columns_); });
-  EXPECT_TRUE(contains(text, "No such file")) << text;
+  EXPECT_TRUE(contains(text, "No such file"));
 }
 
 TEST_F(Csv, keeps_whole_rows_where_the_room_ends_within_one) {

@@ -1,7 +1,7 @@
 #include <set>
 
 #include "apps/output/output_folder.h"
-#include "scratch_folder.h"
+#include "apps/scratch_folder.h"
 
 namespace platen::apps {
 namespace {
@@ -146,7 +146,7 @@ TEST_F(OutputFolder, never_replaces_what_the_run_reads) {
     for (const fs::path &input :
          {output_ / "scene.prm", output_ / ".." / "case one" / "scene.prm", output_ / "specimen.csv"}) {
       const std::string text = message_of<FolderError>([&] { open_output_folder(output_, use, {input}); });
-      EXPECT_TRUE(contains(text, input.string())) << text;
+      EXPECT_TRUE(contains(text, input.string()));
     }
   }
   EXPECT_EQ(content_of(output_ / "scene.prm"), "my scene");
@@ -173,7 +173,7 @@ TEST_F(OutputFolder, that_cannot_be_is_refused) {
   for (const fs::path &place :
        {folder_ / "file", folder_ / "file" / "below", fs::path("/proc/no such place")}) {
     const std::string text = message_of<FolderError>([&] { open_output_folder(place, FolderUse::fresh); });
-    EXPECT_TRUE(contains(text, place.string())) << text;
+    EXPECT_TRUE(contains(text, place.string()));
   }
 }
 

@@ -6,7 +6,7 @@
 
 #include "apps/output/checkpoint_folder.h"
 #include "apps/output/state_listing.h"
-#include "scratch_folder.h"
+#include "apps/scratch_folder.h"
 
 namespace platen::apps::testing {
 namespace {
@@ -42,19 +42,15 @@ std::string squeezed(const std::string &text) {
   return std::regex_replace(text, std::regex(" +"), " ");
 }
 
-bool holds(const std::string &text, const std::string &part) {
-  return text.find(part) != std::string::npos;
-}
-
 TEST_F(StateListing, every_block_is_listed_with_rows_kind_unit_and_range) {
   std::ostringstream out;
   list_state(keep("run", Spheres()), out);
   const std::string text = squeezed(out.str());
-  EXPECT_TRUE(holds(text, "step_000000000012.platen: step 12, 5 blocks, ")) << text;
-  EXPECT_TRUE(holds(text, "\nspecimen (version 4)\n")) << text;
-  EXPECT_TRUE(holds(text, "\nspecimen/pressure 1 float64 Pa 2000000\n")) << text;
-  EXPECT_TRUE(holds(text, "\nspecimen/reason 6 text 1 \"bond 7\"\n")) << text;
-  EXPECT_TRUE(holds(text, "\nspecimen/particles/radius 3 float64 m 0.5 ... 2\n")) << text;
+  EXPECT_TRUE(contains(text, "step_000000000012.platen: step 12, 5 blocks, "));
+  EXPECT_TRUE(contains(text, "\nspecimen (version 4)\n"));
+  EXPECT_TRUE(contains(text, "\nspecimen/pressure 1 float64 Pa 2000000\n"));
+  EXPECT_TRUE(contains(text, "\nspecimen/reason 6 text 1 \"bond 7\"\n"));
+  EXPECT_TRUE(contains(text, "\nspecimen/particles/radius 3 float64 m 0.5 ... 2\n"));
 }
 
 TEST_F(StateListing, numbers_that_are_none_are_counted_beside_the_range) {
@@ -62,7 +58,7 @@ TEST_F(StateListing, numbers_that_are_none_are_counted_beside_the_range) {
   broken.radius[1] = std::nan("");
   std::ostringstream out;
   list_state(keep("run", broken), out);
-  EXPECT_TRUE(holds(squeezed(out.str()), "\nspecimen/particles/radius 3 float64 m 1 ... 2 and 1 nan\n"))
+  EXPECT_TRUE(contains(squeezed(out.str()), "\nspecimen/particles/radius 3 float64 m 1 ... 2 and 1 nan\n"))
       << out.str();
 }
 
@@ -73,10 +69,10 @@ TEST_F(StateListing, the_first_difference_of_two_runs_is_told) {
   const std::filesystem::path changed = keep("changed", other);
   std::ostringstream out;
   EXPECT_TRUE(compare_states(first, same, out));
-  EXPECT_TRUE(holds(out.str(), ": the same to the last bit\n")) << out.str();
+  EXPECT_TRUE(contains(out.str(), ": the same to the last bit\n"));
   out.str("");
   EXPECT_FALSE(compare_states(first, changed, out));
-  EXPECT_TRUE(holds(out.str(), ": specimen/particles/radius, row 1: 0.5 and 0.25 m\n")) << out.str();
+  EXPECT_TRUE(contains(out.str(), ": specimen/particles/radius, row 1: 0.5 and 0.25 m\n"));
 }
 
 TEST_F(StateListing, a_folder_without_a_checkpoint_is_refused) {

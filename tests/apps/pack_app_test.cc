@@ -1,12 +1,7 @@
 // platen-pack: every kind of packing from a scene to the output folder, and back in from its file.
-#include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <sstream>
 
@@ -17,11 +12,12 @@
 #include "apps/run/pack.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/scene/errors.h"
+#include "apps/scratch_folder.h"
 
 namespace platen::apps {
 namespace {
 
-namespace fs = std::filesystem;
+using namespace testing;
 using Words = std::vector<std::string>;
 
 constexpr const char *cylinder =
@@ -43,42 +39,30 @@ constexpr const char *large_box =
     "  set Packing = random close\n"
     "end\n";
 
-std::string text_of(const fs::path &path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-class PackApp : public testing::Test {
+class PackApp : public ScratchFolder {
 protected:
-  PackApp() : folder(fs::temp_directory_path() / ("platen_pack_" + std::to_string(::getpid()))) {
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-    write("small.prm", cylinder);
-  }
-  ~PackApp() override { fs::remove_all(folder); }
+  PackApp() { write("small.prm", cylinder); }
 
-  void write(const std::string &name, const std::string &text) const { std::ofstream(folder / name) << text; }
+  void write(const std::string &name, const std::string &text) const { put(folder_ / name, text); }
   Scene scene(const std::string &name, const Words &overrides = {}) const {
-    return read_scene((folder / name).string(), overrides, program("pack"));
+    return read_scene((folder_ / name).string(), overrides, program("pack"));
   }
   int run(const Scene &of, const std::string &to) const {
     CommandLine command;
     command.scene = of.path;
-    command.output = (folder / to).string();
+    command.output = (folder_ / to).string();
     command.quiet = true;
     return run_pack(command, of);
   }
   nlohmann::json summary(const std::string &of) const {
-    return nlohmann::json::parse(text_of(folder / of / "summary.json"));
+    return nlohmann::json::parse(content_of(folder_ / of / "summary.json"));
   }
 
   struct Direction {
     double x = 0, y = 0, z = 0, weight = 0, contacts = 0, share = 0;
   };
   std::vector<Direction> directions(const std::string &of) const {
-    std::ifstream file(folder / of / "directions.csv");
+    std::ifstream file(folder_ / of / "directions.csv");
     std::string line;
     std::getline(file, line);
     EXPECT_EQ(line, "x,y,z,share_of_directions,contacts,share_of_contacts");
@@ -92,16 +76,14 @@ protected:
     }
     return rows;
   }
-
-  fs::path folder;
 };
 
 // The scenes of crushed specimens are packed too: what only their test can measure is told and left to it.
 TEST_F(PackApp, checks_the_numbers_that_are_its_own) {
   const Words ends{"Expect/strength_pa = 1 MPa ... 2 MPa", "Expect/cone_top/height_m = ... 1 mm"};
   EXPECT_EQ(run(scene("small.prm", ends), "others"), status_done);
-  EXPECT_NE(text_of(folder / "others/run.log").find("not checked here: strength_pa, cone_top/height_m"),
-            std::string::npos);
+  EXPECT_TRUE(
+      contains(content_of(folder_ / "others/run.log"), "not checked here: strength_pa, cone_top/height_m"));
   EXPECT_EQ(run(scene("small.prm", {"Expect/packing_fraction = 0.3 ... 0.6"}), "own"), status_done);
   EXPECT_EQ(run(scene("small.prm", {"Expect/packing_fraction = 0.7 ..."}), "missed"), status_check_failed);
   EXPECT_EQ(summary("own")["expectations"][0]["met"], true);
@@ -117,9 +99,9 @@ TEST_F(PackApp, judges_what_it_packs) {
   ASSERT_EQ(run(scene("small.prm"), "a"), status_done);
   for (const char *name :
        {"specimen.csv", "specimen.vtu", "directions.csv", "summary.json", "scene.prm", "run.log"})
-    EXPECT_TRUE(fs::exists(folder / "a" / name)) << name;
+    EXPECT_TRUE(fs::exists(folder_ / "a" / name)) << name;
   const nlohmann::json s = summary("a");
-  const dem::Specimen written = read_specimen_csv(folder / "a/specimen.csv").specimen;
+  const dem::Specimen written = read_specimen_csv(folder_ / "a/specimen.csv").specimen;
   EXPECT_EQ(s["particles"], written.size());
   const double fraction = dem::volume_of_spheres(written) / written.shape.volume();
   EXPECT_NEAR(s["packing_fraction"].get<double>(), fraction, 1e-12);
@@ -178,16 +160,11 @@ TEST_F(PackApp, tells_how_heavy_grains_make_a_solid) {
 
 TEST_F(PackApp, a_dry_run_refuses_spheres_without_number) {
   CommandLine command;
-  command.output = (folder / "dry").string();
+  command.output = (folder_ / "dry").string();
   command.dry_run = true;
-  try {
-    run_pack(command, scene("small.prm", {"Specimen/Sphere radius = 1 nm"}));
-    ADD_FAILURE() << "not refused";
-  } catch (const InputError &error) {
-    EXPECT_NE(std::string(error.what()).find("Specimen/Sphere radius = 1 nm is too small: "),
-              std::string::npos)
-        << error.what();
-  }
+  const Scene tiny = scene("small.prm", {"Specimen/Sphere radius = 1 nm"});
+  EXPECT_TRUE(contains(message_of<InputError>([&] { run_pack(command, tiny); }),
+                       "Specimen/Sphere radius = 1 nm is too small: "));
 }
 
 TEST_F(PackApp, phases_have_to_fit_the_spheres) {
@@ -201,20 +178,19 @@ TEST_F(PackApp, phases_have_to_fit_the_spheres) {
   };
   const auto listed = [&](const std::string &ids) {
     write("ids.txt", ids);
-    return refusal({"Phases/By = file", "Phases/File = " + (folder / "ids.txt").string()});
+    return refusal({"Phases/By = file", "Phases/File = " + (folder_ / "ids.txt").string()});
   };
   const std::size_t spheres = make_specimen(scene("small.prm")).size();
   const std::string last = std::to_string(spheres - 1), count = std::to_string(spheres);
   EXPECT_EQ(listed("0\n" + last + "\n"), "");
-  EXPECT_NE(listed("0\n" + count + "\n").find("names sphere " + count), std::string::npos);
-  EXPECT_NE(listed("0\n" + count + "\n").find("Allowed: 0 ... " + last), std::string::npos);
-  EXPECT_NE(listed("# none\n").find("names no sphere"), std::string::npos);
-  EXPECT_NE(listed("1\nx\n").find("ids.txt:2: error"), std::string::npos);
+  EXPECT_TRUE(contains(listed("0\n" + count + "\n"), "names sphere " + count));
+  EXPECT_TRUE(contains(listed("0\n" + count + "\n"), "Allowed: 0 ... " + last));
+  EXPECT_TRUE(contains(listed("# none\n"), "names no sphere"));
+  EXPECT_TRUE(contains(listed("1\nx\n"), "ids.txt:2: error"));
   // All radii are 1 mm.
   for (const char *radius : {"0.9 mm", "1.1 mm"})
-    EXPECT_NE(refusal({"Phases/By = radius", std::string("Phases/Radius above = ") + radius})
-                  .find("leaves one phase empty"),
-              std::string::npos)
+    EXPECT_TRUE(contains(refusal({"Phases/By = radius", std::string("Phases/Radius above = ") + radius}),
+                         "leaves one phase empty"))
         << radius;
   EXPECT_EQ(refusal({"Phases/By = radius", "Phases/Radius above = 1 mm", "Specimen/Radius spread = 0.2"}),
             "");
@@ -224,8 +200,8 @@ TEST_F(PackApp, the_same_seed_gives_the_same_file) {
   ASSERT_EQ(run(scene("small.prm"), "a"), status_done);
   ASSERT_EQ(run(scene("small.prm"), "b"), status_done);
   ASSERT_EQ(run(scene("small.prm", {"Scene/Seed = 2"}), "c"), status_done);
-  EXPECT_EQ(text_of(folder / "a/specimen.csv"), text_of(folder / "b/specimen.csv"));
-  EXPECT_NE(text_of(folder / "a/specimen.csv"), text_of(folder / "c/specimen.csv"));
+  EXPECT_EQ(content_of(folder_ / "a/specimen.csv"), content_of(folder_ / "b/specimen.csv"));
+  EXPECT_NE(content_of(folder_ / "a/specimen.csv"), content_of(folder_ / "c/specimen.csv"));
 }
 
 // A packing that is read back is the packing that was written, bit for bit, shape included.
@@ -235,7 +211,7 @@ TEST_F(PackApp, a_written_packing_is_read_back) {
       status_done);
   write("again.prm", "subsection Specimen\n  set Packing = file\n  set File = a/specimen.csv\nend\n");
   ASSERT_EQ(run(scene("again.prm"), "b"), status_done);
-  EXPECT_EQ(text_of(folder / "a/specimen.csv"), text_of(folder / "b/specimen.csv"));
+  EXPECT_EQ(content_of(folder_ / "a/specimen.csv"), content_of(folder_ / "b/specimen.csv"));
   // Jammed against flat ends: about .6 with its walls, and many spheres on each platen.
   const nlohmann::json s = summary("b");
   EXPECT_GT(s["packing_fraction"].get<double>(), .54);
@@ -254,28 +230,20 @@ TEST_F(PackApp, lays_a_large_packing_out_of_tiles_and_tells_how_many) {
   EXPECT_NEAR(tiled["tiles"].get<double>(), tiled["particles"].get<double>() / 400, .5); // less at walls
   for (const char *key : {"packing_fraction", "core_packing_fraction"})
     EXPECT_NEAR(tiled[key].get<double>(), whole[key].get<double>(), .01) << key;
-  EXPECT_NE(text_of(folder / "tiled/specimen.csv"), text_of(folder / "whole/specimen.csv"));
-  EXPECT_NE(text_of(folder / "tiled/run.log").find("the same again every"), std::string::npos);
+  EXPECT_NE(content_of(folder_ / "tiled/specimen.csv"), content_of(folder_ / "whole/specimen.csv"));
+  EXPECT_TRUE(contains(content_of(folder_ / "tiled/run.log"), "the same again every"));
 }
 
 TEST_F(PackApp, refuses_tiles_that_are_no_small_part_of_the_specimen) {
   write("large.prm", large_box);
   const auto said = [&](const std::string &entry, bool dry) {
-    try {
-      if (dry)
-        require_room(scene("large.prm", {entry}));
-      else
-        make_specimen(scene("large.prm", {entry}));
-    } catch (const InputError &e) {
-      return std::string(e.what());
-    }
-    return std::string("nothing");
+    const Scene large = scene("large.prm", {entry});
+    return message_of<InputError>(
+        [&] { dry ? static_cast<void>(require_room(large)) : static_cast<void>(make_specimen(large)); });
   };
   for (const bool dry : {false, true}) {
-    EXPECT_NE(said("Specimen/Tile spheres = 1500", dry).find("Allowed: 200 ... 1300, or 0"),
-              std::string::npos)
-        << said("Specimen/Tile spheres = 1500", dry);
-    EXPECT_NE(said("Specimen/Tile spheres = 199", dry).find("would meet itself"), std::string::npos);
+    EXPECT_TRUE(contains(said("Specimen/Tile spheres = 1500", dry), "Allowed: 200 ... 1300, or 0"));
+    EXPECT_TRUE(contains(said("Specimen/Tile spheres = 199", dry), "would meet itself"));
   }
 }
 
@@ -321,7 +289,7 @@ TEST_F(PackApp, a_file_that_contradicts_the_scene_is_refused) {
   const auto refused = [&](const std::string &lines) {
     write("wrong.prm", file + lines + "end\n");
     EXPECT_THROW(run(scene("wrong.prm"), "x"), InputError) << lines;
-    EXPECT_FALSE(fs::exists(folder / "x")) << lines;
+    EXPECT_FALSE(fs::exists(folder_ / "x")) << lines;
   };
   refused("  set Radius = 7 mm\n");
   refused("  set Height = 20.1 mm\n");
@@ -335,7 +303,7 @@ TEST_F(PackApp, an_unsound_file_is_refused) {
     write("spheres.csv", "# shape: cylinder radius_m=0.01 height_m=0.02\nx_m,y_m,z_m,radius_m\n" + rows);
     write("wrong.prm", "subsection Specimen\n  set Packing = file\n  set File = spheres.csv\nend\n");
     EXPECT_THROW(run(scene("wrong.prm"), "x"), InputError) << rows;
-    EXPECT_FALSE(fs::exists(folder / "x")) << rows;
+    EXPECT_FALSE(fs::exists(folder_ / "x")) << rows;
   };
   refused("0,0,0.01,0.001\n0,0,0.01,0.001\n"); // one centre
   refused("0,0,0.0005,0.001\n");               // out of the bottom

@@ -6,8 +6,12 @@
 #include <cmath>
 #include <functional>
 
+#include "apps/scratch_folder.h"
+
 namespace platen::apps {
 namespace {
+
+using namespace testing;
 
 using Curve = std::vector<CurvePoint>;
 
@@ -35,8 +39,8 @@ TEST(Peak, a_stress_that_rises_to_the_end_has_none) {
   EXPECT_DOUBLE_EQ(peak.largest, 2e8);
   EXPECT_DOUBLE_EQ(peak.strain_at_end, 0.01);
   EXPECT_NEAR(peak.gained, 0.25, 1e-12); // five fifths over four
-  EXPECT_NE(words_against(peak).find("by the strain of 0.01 "), std::string::npos) << words_against(peak);
-  EXPECT_NE(words_against(peak).find("gained 25 %"), std::string::npos) << words_against(peak);
+  EXPECT_TRUE(contains(words_against(peak), "by the strain of 0.01 "));
+  EXPECT_TRUE(contains(words_against(peak), "gained 25 %"));
 }
 
 TEST(Peak, a_fall_by_two_percent_is_one_and_by_less_is_none) {
@@ -101,18 +105,18 @@ TEST(Peak, a_stress_that_stays_as_it_is_asked_is_no_plateau) {
   Curve asked = by(coupling::Loads::by_stress, flat);
   EXPECT_EQ(kind_of(asked), PeakKind::none);
   const std::string words = words_against(judge_peak(asked));
-  EXPECT_NE(words.find("stayed at what was asked"), std::string::npos) << words;
+  EXPECT_TRUE(contains(words, "stayed at what was asked"));
   asked.push_back({0.0101, 0.97e8, true, coupling::Loads::by_stress});
   EXPECT_EQ(kind_of(asked), PeakKind::fallen);
   Curve rises = by(coupling::Loads::by_stress, curve_of([](double e) { return 20e9 * e; }));
-  EXPECT_NE(words_against(judge_peak(rises)).find("gained 25 %"), std::string::npos);
+  EXPECT_TRUE(contains(words_against(judge_peak(rises)), "gained 25 %"));
 }
 
 TEST(Peak, without_stress_there_is_none) {
   EXPECT_FALSE(judge_peak({}).reached());
   const PeakOfCurve pulled = judge_peak(curve_of([](double e) { return -1e9 * e; }));
   EXPECT_FALSE(pulled.reached());
-  EXPECT_NE(words_against(pulled).find("bore nothing"), std::string::npos);
+  EXPECT_TRUE(contains(words_against(pulled), "bore nothing"));
 }
 
 } // namespace

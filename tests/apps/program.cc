@@ -89,12 +89,16 @@ std::vector<std::string> compress_command(const std::vector<std::string> &argume
   return command;
 }
 
-Outcome run_compress(const std::vector<std::string> &arguments, const fs::path &folder) {
+Outcome run_program(const std::vector<std::string> &command, const fs::path &folder) {
   Outcome outcome;
-  outcome.status = Program(compress_command(arguments), folder).wait();
+  outcome.status = Program(command, folder).wait();
   outcome.out = content_of(folder / out_name);
   outcome.error = content_of(folder / error_name);
   return outcome;
+}
+
+Outcome run_compress(const std::vector<std::string> &arguments, const fs::path &folder) {
+  return run_program(compress_command(arguments), folder);
 }
 
 std::string test_scene(const std::string &name) {

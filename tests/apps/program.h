@@ -41,7 +41,8 @@ struct Outcome {
   int status = -1; // exit status, or minus the number of the signal
   std::string out, error;
 };
-// Runs platen-compress to its end in `folder`.
+// Runs a program to its end in `folder`; platen-compress with arguments.
+Outcome run_program(const std::vector<std::string> &command, const std::filesystem::path &folder);
 Outcome run_compress(const std::vector<std::string> &arguments, const std::filesystem::path &folder);
 std::vector<std::string> compress_command(const std::vector<std::string> &arguments);
 

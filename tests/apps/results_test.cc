@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "apps/run/validity.h"
+#include "apps/scratch_folder.h"
 #include "coupling/program_of_test.h"
 #include "dem/packing/advancing_front.h"
 #include "tests/coupling/elastic_problem.h"
@@ -14,7 +15,9 @@
 namespace platen::apps {
 namespace {
 
-class FallenTo : public testing::Test {
+using namespace testing;
+
+class FallenTo : public ::testing::Test {
 protected:
   // At a deviator (Pa) in a cell of 4.5 MPa, with so many bonds broken since the start.
   void at(double deviator, double broken, double axial_stage = 1) {
@@ -216,7 +219,7 @@ coupling::PlatenTestSettings driven_along_x() {
   return s;
 }
 
-class Along : public testing::Test {
+class Along : public ::testing::Test {
 protected:
   Along() { problem_.advance(500); }
   // Stresses along x and y in Pa, strains there of x; the axial platens bear and close more.
@@ -319,7 +322,7 @@ TEST(FailureWords, name_a_dome_beside_a_cone) {
   EXPECT_EQ(words(cone, cone), "what moves with the platens is a cone on each");
   for (const std::string &one : {words(cone, dome), words(dome, cone)})
     EXPECT_EQ(one, "what moves with the platens is a cone on one and a dome on the other");
-  EXPECT_EQ(words(dome, dome).find("cone"), std::string::npos);
+  EXPECT_FALSE(contains(words(dome, dome), "cone"));
 }
 
 } // namespace

@@ -1,45 +1,27 @@
 // Characters that nobody sees in scenes, on command lines and in tables; line ends of all systems.
-#include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
-
 #include "apps/output/specimen_csv.h"
-#include "apps/programs.h"
-#include "apps/scene/errors.h"
-#include "apps/scene/scene.h"
+#include "apps/read_scenes.h"
+#include "apps/scratch_folder.h"
 
 namespace platen::apps {
 namespace {
 
-namespace fs = std::filesystem;
+using namespace testing;
 
 const std::string no_break = "\xc2\xa0", micro = "\xc2\xb5", mu = "\xce\xbc", thin = "\xe2\x80\xaf",
                   soft = "\xc2\xad", mark = "\xef\xbb\xbf", none_wide = "\xe2\x80\x8b",
                   cyrillic_c = "\xd0\xa1";
 
-class SceneCharacters : public ::testing::Test {
+class SceneCharacters : public ScratchFolder {
 protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("platen_characters_" + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
   std::string put(const std::string &name, const std::string &text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
+    testing::put(folder_ / name, text);
     return (folder_ / name).string();
   }
   // What is said of the scene, without the folder; "" where it is read.
-  std::string said(const std::string &name, const std::string &text,
-                   const std::vector<std::string> &overrides = {}) const {
-    try {
-      read_scene(put(name, text), overrides, program("pack"));
-    } catch (const InputError &error) {
-      const std::string what = error.what(), folder = folder_.string() + "/";
-      return what.rfind(folder, 0) == 0 ? what.substr(folder.size()) : what;
-    }
-    return "";
+  std::string said(const std::string &name, const std::string &text, const Entries &overrides = {}) const {
+    const std::string what = said_of(put(name, text), overrides, "pack"), folder = folder_.string() + "/";
+    return what.rfind(folder, 0) == 0 ? what.substr(folder.size()) : what;
   }
   static std::string prm(const std::string &more = "") {
     return "subsection Specimen\n"
@@ -58,8 +40,6 @@ protected:
       result += c == what ? by : std::string(1, c);
     return result;
   }
-
-  fs::path folder_;
 };
 
 void expect_begins(const std::string &text, const std::string &begin) {
@@ -114,14 +94,12 @@ TEST_F(SceneCharacters, what_looks_like_another_letter_is_named) {
                 "a.prm:2: error: Specimen/R\xd0\xb0"
                 "dius is not a parameter: it holds U+0430 (Cyrillic letter) in column 11. Did you mean "
                 "\"Specimen/Radius\"");
-  EXPECT_NE(said("a.prm", changed(plain, "100 mm", "100 \xd0\xbcm"))
-                .find("It holds U+043C (Cyrillic letter) in column 5."),
-            std::string::npos);
-  EXPECT_NE(said("a.prm", changed(plain, "0.3",
-                                  "\xe2\x88\x92"
-                                  "0.3"))
-                .find("is not a number. It holds U+2212 (minus sign) in column 1."),
-            std::string::npos);
+  EXPECT_TRUE(contains(said("a.prm", changed(plain, "100 mm", "100 \xd0\xbcm")),
+                       "It holds U+043C (Cyrillic letter) in column 5."));
+  EXPECT_TRUE(contains(said("a.prm", changed(plain, "0.3",
+                                             "\xe2\x88\x92"
+                                             "0.3")),
+                       "is not a number. It holds U+2212 (minus sign) in column 1."));
 }
 
 TEST_F(SceneCharacters, comments_titles_and_names_of_files_may_hold_them) {
@@ -130,9 +108,8 @@ TEST_F(SceneCharacters, comments_titles_and_names_of_files_may_hold_them) {
             "");
   put("part" + no_break + ".prm", "");
   EXPECT_EQ(said("a.prm", prm("include part" + no_break + ".prm\n")), "");
-  EXPECT_NE(said("a.prm", prm("include other" + no_break + ".prm\n"))
-                .find("The name holds U+00A0 (no-break space) in column 14"),
-            std::string::npos);
+  EXPECT_TRUE(contains(said("a.prm", prm("include other" + no_break + ".prm\n")),
+                       "The name holds U+00A0 (no-break space) in column 14"));
 }
 
 TEST_F(SceneCharacters, json_and_the_command_line_name_them_too) {
@@ -185,13 +162,9 @@ TEST_F(SceneCharacters, line_ends_of_all_three_kinds_are_read) {
                   "a.json:2: error: Specimen/Heigth is not a parameter.");
     const std::string table =
         "# shape: cylinder radius_m=0.025 height_m=0.1\nx_m,y_m,z_m,radius_m\n0,0,0.01,0.001\n0,0,x,0.001\n";
-    try {
-      read_specimen_csv(put("s.csv", all_changed(table, '\n', end)));
-      ADD_FAILURE();
-    } catch (const InputError &error) {
-      EXPECT_NE(std::string(error.what()).find("s.csv:4: error: column z_m: \"x\""), std::string::npos)
-          << error.what();
-    }
+    EXPECT_TRUE(contains(
+        message_of<InputError>([&] { read_specimen_csv(put("s.csv", all_changed(table, '\n', end))); }),
+        "s.csv:4: error: column z_m: \"x\""));
     EXPECT_EQ(read_specimen_csv(put("s.csv", all_changed(changed(table, "x,", "0.02,"), '\n', end)))
                   .specimen.size(),
               2u);
@@ -199,14 +172,9 @@ TEST_F(SceneCharacters, line_ends_of_all_three_kinds_are_read) {
 }
 
 TEST_F(SceneCharacters, tables_of_spheres_name_them) {
-  try {
-    read_specimen_csv(put("s.csv", "x_m,y_m,z_m,radius_m\n0,0," + no_break + "0.01,0.001\n"));
-    ADD_FAILURE();
-  } catch (const InputError &error) {
-    EXPECT_NE(std::string(error.what()).find("the line holds U+00A0 (no-break space) in column 5"),
-              std::string::npos)
-        << error.what();
-  }
+  const std::string table = put("s.csv", "x_m,y_m,z_m,radius_m\n0,0," + no_break + "0.01,0.001\n");
+  EXPECT_TRUE(contains(message_of<InputError>([&] { read_specimen_csv(table); }),
+                       "the line holds U+00A0 (no-break space) in column 5"));
 }
 
 } // namespace

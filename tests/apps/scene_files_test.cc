@@ -1,24 +1,23 @@
 // Good scenes: the same numbers from every notation, and from what was written.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <set>
 #include <sstream>
 
-#include "apps/programs.h"
+#include "apps/read_scenes.h"
 #include "apps/scene/command_line.h"
 #include "apps/scene/declare.h"
 #include "apps/scene/expect.h"
 #include "apps/scene/scene_writer.h"
+#include "apps/scratch_folder.h"
 #include "dem/measure/failure_pattern.h"
 
 namespace platen::apps {
 namespace {
 
-const apps::Program &compress = program("compress");
+using namespace testing;
 
-namespace fs = std::filesystem;
+const apps::Program &compress = program("compress");
 
 const std::string concrete = R"(# A concrete cylinder.
 subsection Scene
@@ -68,36 +67,25 @@ const std::string concrete_json = R"({
   "Expect": {"strength_pa": "35 MPa ... 50 MPa", "cone_top": {"half_angle_deg": "16 ..."}}
 })";
 
-class SceneFiles : public ::testing::Test {
+class SceneFiles : public ScratchFolder {
 protected:
-  void SetUp() override {
-    // One folder for each test: CTest runs them at the same time.
-    folder_ = fs::temp_directory_path() /
-              (std::string("platen ") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  SceneFiles() { folder_ /= "a b"; }
 
   std::string put(const std::string &name, const std::string &text) const {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name, std::ios::binary) << text;
+    testing::put(folder_ / name, text);
     return (folder_ / name).string();
   }
-  Scene read(const std::string &name, const std::string &text,
-             const std::vector<std::string> &overrides = {}) const {
-    return read_scene(put(name, text), overrides, program("compress"));
+  Scene read(const std::string &name, const std::string &text, const Entries &overrides = {}) const {
+    return read_scene(put(name, text), overrides, compress);
   }
-
-  fs::path folder_;
 };
 
 // All bound members as the shortest texts that give the same bits, and what has no single number.
-std::vector<std::string> values_of(const Scene &scene) {
+Entries values_of(const Scene &scene) {
   Scene copy = scene;
   Parameters parameters;
   declare_scene(parameters, copy); // defaults are what the members hold
-  std::vector<std::string> values;
+  Entries values;
   for (const Entry &entry : parameters.entries())
     if (!entry.is_file) values.push_back(entry.path + " = " + entry.default_text);
   for (const Expectation &e : scene.expect)
@@ -166,8 +154,7 @@ TEST_F(SceneFiles, a_written_scene_finds_its_files_from_where_it_lies) {
       "cases/a.prm", concrete,
       {"Specimen/Packing = file", "Specimen/File = " + (folder_ / "cases/packings/spheres  a.csv").string()});
   const std::string text = scene_text(scene, folder_ / "results/deep/a");
-  EXPECT_EQ(text.find(folder_.string()), std::string::npos)
-      << "the folders could no longer be moved together";
+  EXPECT_FALSE(contains(text, folder_.string())) << "the folders could no longer be moved together";
   const Scene again = read("results/deep/a/scene.prm", text);
   EXPECT_TRUE(fs::equivalent(again.specimen.file, scene.specimen.file)) << again.specimen.file;
 }
@@ -221,8 +208,7 @@ TEST_F(SceneFiles, what_is_not_beside_a_scene_is_included_from_the_scenes_of_pla
     read("b.prm", "include parts/no_such.prm\n");
     ADD_FAILURE() << "a part that is nowhere is refused";
   } catch (const InputError &error) {
-    EXPECT_NE(std::string(error.what()).find((folder_ / "parts/no_such.prm").string()), std::string::npos)
-        << error.what();
+    EXPECT_TRUE(contains(error.what(), (folder_ / "parts/no_such.prm").string())) << error.what();
   }
 }
 
@@ -231,11 +217,18 @@ TEST_F(SceneFiles, the_last_override_holds) {
   EXPECT_EQ(scene.contact.friction, 0.3);
 }
 
-TEST_F(SceneFiles, printed_json_can_be_read_as_a_scene) {
-  const Scene scene = read("a.prm", concrete);
-  std::ostringstream text;
-  print_parameters(scene, "", true, text);
-  EXPECT_EQ(values_of(read("b.json", text.str())), values_of(scene));
+TEST_F(SceneFiles, printed_parameters_can_be_read_as_a_scene) {
+  const Scene scene = read("a.prm", concrete, {"Bond/Modulus = 12.345678901234567 GPa"});
+  for (const bool json : {false, true}) {
+    std::ostringstream text;
+    print_parameters(scene, "", json, text);
+    EXPECT_TRUE(contains(text.str(), "12.345678901234567 GPa"));
+    const Scene again = read(json ? "b.json" : "b.prm", text.str());
+    EXPECT_EQ(values_of(again), values_of(scene));
+    std::ostringstream second;
+    print_parameters(again, "", json, second);
+    EXPECT_EQ(second.str(), text.str());
+  }
 }
 
 TEST_F(SceneFiles, every_entry_tells_its_meaning) {
@@ -249,8 +242,7 @@ TEST_F(SceneFiles, every_entry_tells_its_meaning) {
       EXPECT_GT(entry.documentation.size(), 10u) << entry.path;
       EXPECT_EQ(entry.documentation.back(), '.') << entry.path;
       EXPECT_TRUE(paths.insert(entry.path).second) << entry.path;
-      EXPECT_NE(text.str().find("set " + entry.path.substr(entry.path.rfind('/') + 1)), std::string::npos)
-          << entry.path;
+      EXPECT_TRUE(contains(text.str(), "set " + entry.path.substr(entry.path.rfind('/') + 1))) << entry.path;
     }
   }
 }
@@ -268,8 +260,8 @@ TEST_F(SceneFiles, entries_without_effect_are_told) {
           .notes.empty());
 }
 
-std::vector<std::string> reasons_of_missed(const nlohmann::ordered_json &expectations) {
-  std::vector<std::string> reasons;
+Entries reasons_of_missed(const nlohmann::ordered_json &expectations) {
+  Entries reasons;
   for (const auto &one : expectations)
     if (one["met"] == false) reasons.push_back(one["reason"].get<std::string>());
   return reasons;
@@ -287,17 +279,14 @@ TEST_F(SceneFiles, expected_numbers_hold_at_their_bounds_and_not_beyond) {
   EXPECT_EQ(failures(51e6, 20)[0],
             (folder_ / "a.prm").string() + ":31: strength_pa = 51 MPa is not in 35 MPa ... 50 MPa");
   // Four digits, or as many as it takes to see on which side it is.
-  EXPECT_NE(failures(34123456.78, 20)[0].find("strength_pa = 34.12 MPa is not in"), std::string::npos);
-  EXPECT_NE(failures(50000001, 20)[0].find("strength_pa = 50.000001 MPa is not in"), std::string::npos);
-  EXPECT_NE(failures(40e6, 15.99999)[0].find("half_angle_deg = 15.99999 is not in 16 ..."),
-            std::string::npos);
+  EXPECT_TRUE(contains(failures(34123456.78, 20)[0], "strength_pa = 34.12 MPa is not in"));
+  EXPECT_TRUE(contains(failures(50000001, 20)[0], "strength_pa = 50.000001 MPa is not in"));
+  EXPECT_TRUE(contains(failures(40e6, 15.99999)[0], "half_angle_deg = 15.99999 is not in 16 ..."));
   const Scene other = read("b.prm", concrete, {"Expect/strength_pa = 35e6 ... 0.05 GPa"});
-  EXPECT_NE(reasons_of_missed(check_expectations(other, {{"strength_pa", 51.23456e6}}))
-                .at(0)
-                .find("strength_pa = 0.05123 GPa is not in 35e6 ... 0.05 GPa"),
-            std::string::npos);
+  EXPECT_TRUE(contains(reasons_of_missed(check_expectations(other, {{"strength_pa", 51.23456e6}})).at(0),
+                       "strength_pa = 0.05123 GPa is not in 35e6 ... 0.05 GPa"));
   ASSERT_EQ(failures(40e6, not_given).size(), 1u); // expected and not measured
-  EXPECT_NE(failures(40e6, not_given)[0].find("cone_top/half_angle_deg was not measured"), std::string::npos);
+  EXPECT_TRUE(contains(failures(40e6, not_given)[0], "cone_top/half_angle_deg was not measured"));
 }
 
 TEST_F(SceneFiles, what_is_expected_is_listed_with_range_value_and_whether_it_is_met) {
@@ -314,8 +303,7 @@ TEST_F(SceneFiles, what_is_expected_is_listed_with_range_value_and_whether_it_is
   EXPECT_EQ(of("Expect/strength_pa")["range"], "35 MPa ... 50 MPa");
   EXPECT_EQ(of("Expect/strength_pa")["value"], 51e6);
   EXPECT_EQ(of("Expect/strength_pa")["met"], false);
-  EXPECT_NE(of("Expect/strength_pa")["reason"].get<std::string>().find("a.prm:31: strength_pa"),
-            std::string::npos);
+  EXPECT_TRUE(contains(of("Expect/strength_pa")["reason"].get<std::string>(), "a.prm:31: strength_pa"));
   EXPECT_EQ(of("Expect/cone_top/half_angle_deg")["met"], true);
   EXPECT_EQ(of("Expect/cone_top/half_angle_deg")["reason"], nullptr);
   EXPECT_EQ(of("Expect/particles")["met"], false); // measured by this app, and null
@@ -355,10 +343,10 @@ TEST_F(SceneFiles, an_expected_word_is_one_of_those_given) {
   EXPECT_TRUE(failed({{"pattern", "cones"}}).empty());
   EXPECT_TRUE(failed({{"pattern", "shear plane"}}).empty());
   ASSERT_EQ(failed({{"pattern", "crushing"}}).size(), 1u);
-  EXPECT_NE(failed({{"pattern", "crushing"}})[0].find("pattern = crushing is not one of cones, shear plane"),
-            std::string::npos);
+  EXPECT_TRUE(
+      contains(failed({{"pattern", "crushing"}})[0], "pattern = crushing is not one of cones, shear plane"));
   ASSERT_EQ(failed({{"pattern", nullptr}}).size(), 1u);
-  EXPECT_NE(failed({{"pattern", nullptr}})[0].find("pattern was not measured"), std::string::npos);
+  EXPECT_TRUE(contains(failed({{"pattern", nullptr}})[0], "pattern was not measured"));
   const auto unchecked = check_expectations(scene, {{"steps", 1}});
   ASSERT_EQ(unchecked.size(), 1u);
   EXPECT_EQ(unchecked[0]["entry"], "Expect/pattern");

@@ -1,62 +1,40 @@
 // All that is wrong with a scene is told at once, in the order of files, lines and options; what only follows
 // from another fault is not.
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
-#include <stdexcept>
 
-#include "apps/programs.h"
-#include "apps/scene/declare.h"
-#include "apps/scene/scene.h"
+#include "apps/read_scenes.h"
+#include "apps/scratch_folder.h"
 
 namespace platen::apps {
 namespace {
 
-namespace fs = std::filesystem;
+using namespace testing;
 
-class ManyFaults : public ::testing::Test {
+class ManyFaults : public ScratchFolder {
 protected:
-  ManyFaults() {
-    // One folder for each test: CTest runs them at the same time.
-    std::string pattern = (fs::temp_directory_path() / "platen many faults XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no folder for the test");
-    folder_ = pattern;
-  }
-  ~ManyFaults() override { fs::remove_all(folder_); }
-
-  void put(const std::string &name, const std::string &text) const { std::ofstream(folder_ / name) << text; }
+  void put(const std::string &name, const std::string &text) const { testing::put(folder_ / name, text); }
   // Each line of the message, without the folder.
-  std::vector<std::string> told(const std::string &name, const std::vector<std::string> &overrides = {},
-                                const apps::Program &app = program("compress")) const {
-    std::vector<std::string> lines;
-    try {
-      read_scene((folder_ / name).string(), overrides, app);
-    } catch (const InputError &error) {
-      std::istringstream text(error.what());
-      const std::string before = folder_.string() + "/";
-      for (std::string line; std::getline(text, line);) {
-        const auto at = line.find(before);
-        lines.push_back(at == 0 ? line.substr(before.size()) : line);
-      }
-    }
+  Entries told(const std::string &name, const Entries &overrides = {}) const {
+    std::istringstream text(said_of(folder_ / name, overrides));
+    const std::string before = folder_.string() + "/";
+    Entries lines;
+    for (std::string line; std::getline(text, line);)
+      lines.push_back(line.rfind(before, 0) == 0 ? line.substr(before.size()) : line);
     return lines;
   }
   static std::string begins(const std::string &line, const std::string &with) {
     return line.compare(0, with.size(), with) == 0 ? "" : line + "\n does not begin with " + with;
   }
-  void expect(const std::vector<std::string> &lines, const std::vector<std::string> &beginnings) const {
+  void expect(const Entries &lines, const Entries &beginnings) const {
     ASSERT_EQ(lines.size(), beginnings.size()) << ::testing::PrintToString(lines);
     for (std::size_t k = 0; k < lines.size(); ++k)
       EXPECT_EQ(begins(lines[k], beginnings[k]), "");
   }
 
-  fs::path folder_;
-  const std::string good_ =
-      "include " + (fs::path(PLATEN_TEST_DATA) / "fragment" / "good.prm").string() + "\n";
+  const std::string good_ = "include " + good + "\n";
 };
 
 TEST_F(ManyFaults, are_told_in_the_order_of_lines_and_options) {
@@ -86,7 +64,7 @@ TEST_F(ManyFaults, of_included_files_come_after_those_of_the_file_that_includes_
   put("part.prm",
       "subsection Bond\n  set Modulos = 1 GPa\nend\nsubsection Integration\n  set Safety = 3\nend\n");
   put("bad.prm", "include part.prm\nsubsection Loading\n  set Ramp = -1 s\nend\n");
-  const std::vector<std::string> lines = told("bad.prm");
+  const Entries lines = told("bad.prm");
   ASSERT_GE(lines.size(), 3u);
   EXPECT_EQ(begins(lines[0], "bad.prm:3: error: Loading/Ramp = -1 s"), "");
   EXPECT_EQ(begins(lines[lines.size() - 2], "part.prm:2: error: Bond/Modulos"), "");
@@ -136,7 +114,7 @@ TEST_F(ManyFaults, twenty_are_told_and_the_rest_counted) {
   for (int k = 0; k < 25; ++k)
     text += "  set Modulos = " + std::to_string(k) + "\n";
   put("bad.prm", text + "end\n");
-  const std::vector<std::string> lines = told("bad.prm");
+  const Entries lines = told("bad.prm");
   ASSERT_EQ(lines.size(), 21u);
   EXPECT_EQ(begins(lines[0], "bad.prm:2: "), "");
   EXPECT_EQ(begins(lines[19], "bad.prm:21: "), "");
@@ -147,7 +125,7 @@ TEST_F(ManyFaults, of_json_are_told_together_too) {
   put("bad.json",
       "{\"Bond\": {\"Moduluss\": 1,\n\"Gap\": -1},\n\"Bonds\": {\"Modulus\": {\"a\": 1}, \"x\": 2},\n"
       "\"Integration\": {\"Safety\": 2}}\n");
-  const std::vector<std::string> lines = told("bad.json");
+  const Entries lines = told("bad.json");
   ASSERT_GE(lines.size(), 4u);
   EXPECT_EQ(begins(lines[0], "bad.json:1: error: Bond/Moduluss is not a parameter"), "");
   EXPECT_EQ(begins(lines[1], "bad.json:2: error: Bond/Gap = -1"), "");

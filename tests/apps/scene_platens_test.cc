@@ -3,21 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 
-#include "apps/programs.h"
+#include "apps/read_scenes.h"
 #include "apps/run/problem_setup.h"
 #include "coupling/platens_of_test.h"
 
 namespace platen::apps {
 namespace {
-
-const std::string good = (std::filesystem::path(PLATEN_TEST_DATA) / "fragment" / "good.prm").string();
-
-Scene scene_with(const std::vector<std::string> &overrides) {
-  return read_scene(good, overrides, program("compress"));
-}
 
 // Every number and flag by its name; words, stiffnesses and gaps as they compare.
 struct Values {
@@ -30,7 +23,7 @@ struct Values {
 };
 
 template <class Described>
-void expect_same(const Described &scene, const Described &library, const std::vector<std::string> &but = {}) {
+void expect_same(const Described &scene, const Described &library, const Entries &but = {}) {
   Values a, b;
   Described::describe(a, scene);
   Described::describe(b, library);
@@ -61,7 +54,7 @@ TEST(ScenePlatens, a_default_of_platens_sleeve_and_loading_is_stated_once) {
 }
 
 TEST(ScenePlatens, layers_arrive_with_their_materials) {
-  const std::vector<std::string> entries{
+  const Entries entries{
       "Platens/Kind = deformable", "Platens/Layers = hard rubber 2 mm, steel 20 mm",
       "Platens/Layer materials = steel: 210 GPa, 0.3, 7850 kg/m3; hard rubber: 5 MPa, 45 %, 1.1 g/cm3",
       "Platens/Bottom/Layers = platen 1 mm, steel 3 mm"};
@@ -79,7 +72,7 @@ TEST(ScenePlatens, layers_arrive_with_their_materials) {
   EXPECT_DOUBLE_EQ(told.bottom.thickness, 4e-3);
   EXPECT_TRUE(told.top.layers.empty());
   EXPECT_EQ(told.top.thickness, 0);
-  std::vector<std::string> thicker(entries);
+  Entries thicker(entries);
   thicker.emplace_back("Platens/Thickness = 30 mm");
   const coupling::PlatenTestSettings other = problem_settings(scene_with(thicker));
   const coupling::PlatenSettings &given = other.platens;
@@ -147,7 +140,7 @@ TEST(ScenePlatens, what_platens_sleeve_and_loading_say_arrives) {
 
 // By the law of the grains unless platens have one; what is glued is linear.
 TEST(ScenePlatens, grains_press_on_platens_as_the_scene_says) {
-  const auto told = [](std::vector<std::string> entries) {
+  const auto told = [](Entries entries) {
     entries.insert(entries.begin(), {"Platens/Stiffness = 1e7 N/m", "Platens/Tangential ratio = 0.5"});
     return scene_with(entries);
   };
@@ -177,19 +170,19 @@ TEST(ScenePlatens, grains_press_on_platens_as_the_scene_says) {
 
 // Each side takes its own figure, that of its own word, the common one; sides without platens are left out.
 TEST(ScenePlatens, sides_have_platens_where_the_scene_puts_them) {
-  const std::vector<std::string> box{"Specimen/Shape = box",
-                                     "Specimen/Radius =",
-                                     "Specimen/Width x = 10 mm",
-                                     "Specimen/Width y = 10 mm",
-                                     "Platens/Friction static = 0.4",
-                                     "Platens/Left/Friction static = 0.2",
-                                     "Platens/Right/Surface = grease",
-                                     "Platens/Front/Friction law = slip weakening",
-                                     "Platens/Front/Friction dynamic = 0.1",
-                                     "Platens/Slip length = 1 mm",
-                                     "Platens/Edge gap = 0.3 mm"};
+  const Entries box{"Specimen/Shape = box",
+                    "Specimen/Radius =",
+                    "Specimen/Width x = 10 mm",
+                    "Specimen/Width y = 10 mm",
+                    "Platens/Friction static = 0.4",
+                    "Platens/Left/Friction static = 0.2",
+                    "Platens/Right/Surface = grease",
+                    "Platens/Front/Friction law = slip weakening",
+                    "Platens/Front/Friction dynamic = 0.1",
+                    "Platens/Slip length = 1 mm",
+                    "Platens/Edge gap = 0.3 mm"};
   const auto told = [&](const std::string &sides) {
-    std::vector<std::string> entries = box;
+    Entries entries = box;
     entries.push_back("Platens/Sides = " + sides);
     return scene_with(entries);
   };

@@ -19,14 +19,26 @@ protected:
   ScratchFolder() {
     std::string pattern = (fs::temp_directory_path() / "platen_output_XXXXXX").string();
     if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no scratch folder");
-    folder_ = pattern;
+    root_ = folder_ = pattern;
   }
   ~ScratchFolder() override {
     std::error_code ignored;
-    fs::remove_all(folder_, ignored);
+    fs::remove_all(root_, ignored);
   }
   fs::path folder_;
+
+private:
+  fs::path root_; // a test may go to a folder within
 };
+
+// One that all tests of this process share, gone at its end.
+inline const fs::path &process_folder() {
+  static const struct Kept : ScratchFolder {
+    void TestBody() override {}
+    const fs::path &path() const { return folder_; }
+  } kept;
+  return kept.path();
+}
 
 inline std::string content_of(const fs::path &path) {
   std::ifstream stream(path, std::ios::binary);
@@ -54,8 +66,10 @@ std::string message_of(const Act &act) {
   return "";
 }
 
-inline bool contains(const std::string &text, const std::string &part) {
-  return text.find(part) != std::string::npos;
+// Whether a text holds a part; a failed expectation shows both.
+inline ::testing::AssertionResult contains(const std::string &text, const std::string &part) {
+  const bool found = text.find(part) != std::string::npos;
+  return ::testing::AssertionResult(found) << text << "\n holds " << (found ? "" : "no ") << part;
 }
 
 } // namespace platen::apps::testing

@@ -10,6 +10,7 @@ there is no Clang. An hour on two cores.
 """
 
 import concurrent.futures
+import copy
 import os
 import pathlib
 import re
@@ -33,21 +34,24 @@ BLOCKS = ("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 9 \"foot\"
 
 def faulty_scenes():
     """Texts by name from tests/apps/faulty.txt, which says itself how they are written."""
-    blocks = {"": ({}, [])}
+    bases, blocks, base = {}, {}, ""
     for line in (faults.SOURCE / "tests/apps/faulty.txt").read_text().splitlines():
-        sign, text = line[2:3], line[4:]
-        if line.strip() == "" or line.lstrip().startswith("#"):
+        text = line.strip().partition(" > ")[0]
+        if text == "" or text.startswith(("#", "> ")):
+            continue
+        if line.startswith("["):
+            base, _, other = line[1:-1].partition(": ")
+            entries, lines = bases.setdefault(base, copy.deepcopy(bases[other]) if other else ({}, []))
             continue
         if not line.startswith(" "):
-            name, _, base = line.rstrip("]").partition(" [")
-            entries, lines = blocks[base or ("cylinder" if "." in name else "")]
-            entries, lines = blocks[name] = dict(entries), list(lines)
-        elif sign == "-":
-            del entries[text]
-        elif sign == "|":
-            lines.append(text)
-        elif sign != ">":
-            key, _, value = line[2:].partition(" =")
+            kind = "json" if base.startswith("json") else "prm"
+            entries, lines = blocks[f"faulty_{len(blocks)}.{kind}"] = copy.deepcopy(bases[base])
+        if text.startswith("| "):
+            lines.append(text[2:])
+        elif text.startswith("- "):
+            entries.pop(text[2:], None)
+        else:
+            key, _, value = text.partition(" =")
             entries[key] = value
     scenes = {}
     for name, (entries, lines) in blocks.items():
@@ -56,7 +60,7 @@ def faulty_scenes():
             *sections, key = key.split("/")
             text += "".join(f"subsection {word}\n" for word in sections) + f"set {key} ={value}\n" + "end\n" * len(sections)
         scenes[name] = (text + "".join(line + "\n" for line in lines)).encode()
-    return {name: text for name, text in scenes.items() if "." in name}
+    return scenes
 
 
 def seed(folder):

@@ -20,7 +20,7 @@ import faults
 
 PARTICLES = ["test_dem", "test_packing"]
 OTHERS = ["test_layering", "test_scene", "test_output", "test_fem", "test_coupling", "test_bonds", "test_pack", "test_calibrate",
-          "test_bar", "test_compress", "test_brazilian", "test_bending", "test_study",
+          "test_bar", "test_compress", "test_study",
           "test_stability"]
 KINDS = {"thread": (41, "thread", PARTICLES, "OFF"), "address": (40, "address,undefined", PARTICLES + OTHERS, "ON")}
 REPORT = re.compile(r"ERROR: (?:Address|Leak)Sanitizer|WARNING: ThreadSanitizer|runtime error:")

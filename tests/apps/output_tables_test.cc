@@ -1,12 +1,16 @@
+// Tables of spheres, of ids and of cracks: read back to the bit, refused by line and column.
 #include <cstring>
+#include <fstream>
 #include <limits>
 #include <locale>
 #include <random>
 
+#include "apps/output/crack_discs.h"
 #include "apps/output/errors.h"
 #include "apps/output/file.h"
 #include "apps/output/specimen_csv.h"
-#include "scratch_folder.h"
+#include "apps/scene/errors.h"
+#include "apps/scratch_folder.h"
 
 namespace platen::apps {
 namespace {
@@ -138,10 +142,11 @@ TEST_F(SpecimenCsv, faults_are_refused_with_line_column_and_value) {
       {std::string(100000, '\xff'), {":1:", "header"}}};
   for (const Fault &fault : faults) {
     const std::string text = refusal(fault.content);
-    EXPECT_TRUE(contains(text, path_.string())) << text;
+    EXPECT_TRUE(contains(text, path_.string()));
     EXPECT_LT(text.size(), path_.string().size() + 250);
     for (const std::string &word : fault.words)
-      EXPECT_TRUE(contains(text, word)) << "no " << word << " in: " << text;
+      EXPECT_TRUE(contains(text, word)) << "no "
+                                        << " in: ";
   }
 }
 
@@ -154,6 +159,69 @@ TEST_F(SpecimenCsv, on_a_full_disk_says_so) {
   fs::create_symlink("/dev/full", part_path(path_));
   EXPECT_THROW(write_specimen_csv(path_, random_specimen(10)), OutputError);
   EXPECT_FALSE(fs::exists(path_));
+}
+
+class IdList : public ScratchFolder {
+protected:
+  fs::path path_ = folder_ / "aggregate.txt";
+  std::vector<int> read(const std::string &content) const {
+    put(path_, content);
+    return read_id_list(path_);
+  }
+  std::string refusal(const std::string &content) const {
+    put(path_, content);
+    return message_of<InputError>([&] { read_id_list(path_); });
+  }
+};
+
+TEST_F(IdList, holds_one_number_a_line_between_comments) {
+  EXPECT_EQ(read("# large ones\r\n3\n\n  0 # the first\n2147483647"), (std::vector<int>{3, 0, 2147483647}));
+  EXPECT_TRUE(read("# none\n").empty());
+}
+
+TEST_F(IdList, refuses_what_is_no_id) {
+  for (const char *bad : {"1.5", "-1", "1 2", "1,2", "a", "2147483648", "0x1", "+1"}) {
+    const std::string message = refusal(std::string("7\n") + bad + "\n");
+    EXPECT_TRUE(contains(message, "aggregate.txt:2: error: \"" + std::string(bad) + "\" is no id"));
+  }
+  EXPECT_TRUE(contains(refusal("7\n8\n\n7\n"), "aggregate.txt:4: error: 7 stands in line 1 too"));
+  put(path_, "0\n9\n\n10\n");
+  EXPECT_EQ(read_id_list(path_, 11).size(), 3u);
+  EXPECT_TRUE(
+      contains(message_of<InputError>([&] { read_id_list(path_, 10); }),
+               "aggregate.txt:4: error: names sphere 10, but the specimen has 10. Allowed: 0 ... 9."));
+  EXPECT_TRUE(contains(message_of<InputError>([&] { read_id_list(folder_ / "none"); }), "cannot be read"));
+  EXPECT_TRUE(contains(message_of<InputError>([&] { read_id_list(folder_); }), "cannot be read"));
+}
+
+const char *crack_header =
+    "time_s,axial_strain,x_m,y_m,z_m,nx,ny,nz,area_m2,mode,energy_j,particle_a,particle_b\n";
+
+class CrackDiscs : public ScratchFolder {
+protected:
+  void write(const std::string &rows) { std::ofstream(folder_ / "cracks.csv") << crack_header << rows; }
+  void discs() { write_crack_discs(folder_ / "cracks.csv", 1, folder_ / "cracks.vtu"); }
+};
+
+TEST_F(CrackDiscs, are_the_same_bytes_each_time_and_none_is_a_file_too) {
+  write("1e-3,0.002,0,0,0.01,0,0,1,1e-6,tension,2e-6,3,4\n");
+  discs();
+  const std::string first = content_of(folder_ / "cracks.vtu");
+  discs();
+  EXPECT_EQ(first, content_of(folder_ / "cracks.vtu"));
+  EXPECT_TRUE(contains(first, "NumberOfPoints=\"12\""));
+  write("");
+  discs();
+  EXPECT_TRUE(contains(content_of(folder_ / "cracks.vtu"), "NumberOfCells=\"0\""));
+}
+
+TEST_F(CrackDiscs, a_damaged_row_is_named) {
+  write("1e-3,0.002,0,0,0.01,0,0,1,1e-6,bending,2e-6,3,4\n");
+  EXPECT_TRUE(contains(message_of<InputError>([&] { discs(); }), "cracks.csv:2: mode: \"bending\""));
+  write("1e-3,0.002,0,0\n");
+  EXPECT_TRUE(contains(message_of<InputError>([&] { discs(); }), ":2: 4 fields, 13 are wanted"));
+  write("1e-3,0.002,0,x,0.01,0,0,1,1e-6,shear,2e-6,3,4\n");
+  EXPECT_TRUE(contains(message_of<InputError>([&] { discs(); }), "y_m: \"x\" is not a number"));
 }
 
 } // namespace

@@ -1,17 +1,23 @@
-// Command lines: what they say, what is refused, and the exit status of what the body throws.
+// Command lines: what they say, what is refused, the exit status of what the body throws; commands that are
+// printed to be pasted.
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include <array>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
 
-#include <nlohmann/json.hpp>
-
 #include "apps/programs.h"
 #include "apps/scene/command_line.h"
+#include "apps/scene/shell.h"
+#include "apps/scratch_folder.h"
 
 namespace platen::apps {
 namespace {
+
+using namespace testing;
 
 const std::string good = std::string(PLATEN_TEST_DATA) + "/fragment/good.prm";
 apps::Program described(const std::string &name, const std::vector<std::string> &kinds) {
@@ -65,14 +71,14 @@ TEST(CommandLine, help_and_version_are_texts) {
       parse({"--help"});
       ADD_FAILURE();
     } catch (const PrintAndExit &asked) {
-      EXPECT_NE(asked.text.find(option), std::string::npos) << option;
+      EXPECT_TRUE(contains(asked.text, option));
     }
   try {
     parse({"--version"});
     ADD_FAILURE();
   } catch (const PrintAndExit &asked) {
     for (const char *part : {"Platen ", "commit ", "compiler ", "deal.II ", "Trilinos", "VTK "})
-      EXPECT_NE(asked.text.find(part), std::string::npos) << part;
+      EXPECT_TRUE(contains(asked.text, part));
   }
 }
 
@@ -132,7 +138,7 @@ TEST(CommandLine, a_study_is_planned_run_by_number_and_collected) {
       parse(line, planning);
       ADD_FAILURE() << says;
     } catch (const InputError &error) {
-      EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
+      EXPECT_TRUE(contains(error.what(), says)) << error.what();
     }
   EXPECT_THROW(parse({"a.prm", "--plan"}), InputError); // of other programs
 }
@@ -168,7 +174,7 @@ TEST(CommandLine, bad_lines_are_refused) {
     } catch (const InputError &error) {
       const std::string message = error.what();
       EXPECT_EQ(message.find("command line: error: "), 0u) << message;
-      EXPECT_NE(message.find(bad.says), std::string::npos) << message << "\n not: " << bad.says;
+      EXPECT_TRUE(contains(message, bad.says));
     }
   EXPECT_THROW(parse({"fricton", "a.prm"}, study), InputError);
 }
@@ -223,8 +229,7 @@ TEST(ExitStatus, parameters_are_printed_without_running) {
                 },
                 {"--print-parameters"}),
             0);
-  EXPECT_NE(::testing::internal::GetCapturedStdout().find("set Sphere radius       = 1 mm"),
-            std::string::npos);
+  EXPECT_TRUE(contains(::testing::internal::GetCapturedStdout(), "set Sphere radius       = 1 mm"));
   EXPECT_FALSE(ran);
 }
 
@@ -236,6 +241,63 @@ TEST(ExitStatus, stack_traces_of_libraries_are_left_out) {
         "singular.\n\nStacktrace:\n-----------\n#0 somewhere\n--------\n");
   });
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "The matrix is singular.\n");
+}
+
+// The words that /bin/sh sees, one a line.
+std::string words_of(const std::string &command) {
+  FILE *shell = popen(("printf '%s\\n' " + command).c_str(), "r");
+  std::string text;
+  std::array<char, 256> piece{};
+  while (std::fgets(piece.data(), piece.size(), shell) != nullptr)
+    text += piece.data();
+  EXPECT_EQ(pclose(shell), 0) << command;
+  return text;
+}
+
+TEST(Shell, a_word_is_what_it_was) {
+  for (const char *word : {"results/dry",
+                           "a b",
+                           "$(touch x)",
+                           "`touch x`",
+                           "it's",
+                           "''",
+                           "a\"b",
+                           "a;b",
+                           "a&b",
+                           "~",
+                           "*",
+                           "a\\b",
+                           "",
+                           " ",
+                           "#a",
+                           "!x",
+                           "{a,b}",
+                           "a>b",
+                           "\xc3\xa9t\xc3\xa9",
+                           "-s",
+                           "a=b",
+                           "x\ty"})
+    EXPECT_EQ(words_of(shell_word(word)), std::string(word) + "\n") << word;
+}
+
+TEST(Shell, a_plain_word_stays_as_it_is) {
+  EXPECT_EQ(shell_word("scenes/demo_dry.prm"), "scenes/demo_dry.prm");
+  EXPECT_EQ(shell_word("a b"), "'a b'");
+  EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
+}
+
+TEST(Shell, a_command_is_called_as_it_was) {
+  CommandLine line;
+  line.kind = "friction", line.scene = "my scenes/a.prm", line.output = "$(touch x)";
+  line.overrides = {"Scene/Title = it's", "Loading/Target strain = 0.01"};
+  EXPECT_EQ(
+      words_of(shell_command("platen-study", line)),
+      "platen-study\nfriction\nmy scenes/a.prm\n-o\n$(touch x)\n-s\nScene/Title = it's\n-s\nLoading/Target "
+      "strain = 0.01\n");
+  line.kind = "";
+  line.overrides.emplace_back("  Loading/Target strain = 0.02");
+  EXPECT_EQ(words_of(shell_command("platen-compress", line, "Loading/Target strain")),
+            "platen-compress\nmy scenes/a.prm\n-o\n$(touch x)\n-s\nScene/Title = it's\n");
 }
 
 } // namespace

@@ -1,30 +1,61 @@
-// What a word for a platen's face stands for, and what stays with the scene.
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
+// What a word of quality or for a face of a platen stands for, and what stays with the scene.
+#include <cmath>
 #include <sstream>
 
-#include "apps/programs.h"
+#include "apps/read_scenes.h"
 #include "apps/scene/command_line.h"
 #include "apps/scene/parameters.h"
-#include "apps/scene/scene.h"
 #include "apps/scene/surfaces.h"
 #include "apps/scratch_folder.h"
 
 namespace platen::apps {
 namespace {
 
-namespace fs = std::filesystem;
+using namespace testing;
 
-const std::string good = (fs::path(PLATEN_TEST_DATA) / "fragment" / "good.prm").string();
+class SceneQuality : public ScratchFolder {};
 
-Scene scene_with(const std::vector<std::string> &entries) {
-  return read_scene(good, entries, program("compress"));
+TEST_F(SceneQuality, words_go_from_coarse_to_fine_and_leave_no_rate_to_be_given) {
+  double safety = 1, crossings = 0;
+  for (const char *word : {"fast", "standard", "reference"}) {
+    const Scene scene = scene_with({std::string("Scene/Quality = ") + word, "Loading/Axial rate ="});
+    EXPECT_LT(scene.time_step.safety, safety) << word;
+    EXPECT_GT(scene.loading.wave_transits, crossings) << word;
+    safety = scene.time_step.safety, crossings = scene.loading.wave_transits;
+    EXPECT_TRUE(contains(text_of(scene.general.quality, *scene.parameters), word));
+  }
+}
+
+TEST_F(SceneQuality, what_the_scene_says_stays_and_is_told_apart) {
+  const Scene scene = scene_with({"Scene/Quality = fast", "Integration/Safety = 0.3"});
+  EXPECT_EQ(scene.time_step.safety, 0.3);
+  EXPECT_TRUE(std::isnan(scene.loading.wave_transits)); // good.prm has its rate
+  const std::string told = text_of(scene.general.quality, *scene.parameters);
+  EXPECT_TRUE(contains(told, "the scene's own: Integration/Safety, Loading/Wave crossings"));
+}
+
+TEST_F(SceneQuality, without_a_word_nothing_is_set_and_the_rate_has_to_be_given) {
+  EXPECT_EQ(scene_with({}).general.quality, Quality::custom);
+  EXPECT_EQ(scene_with({"Scene/Quality = standard"}).time_step.safety, scene_with({}).time_step.safety);
+  EXPECT_EQ(text_of(Quality::custom, *scene_with({}).parameters), "");
+  EXPECT_THROW(scene_with({"Loading/Axial rate ="}), InputError);
+  // Discs are split at a speed of their own.
+  EXPECT_THROW(
+      scene_with({"Loading/Axial rate =", "Scene/Quality = fast", "Specimen/Shape = disc"}, "brazilian"),
+      InputError);
+}
+
+TEST_F(SceneQuality, a_scene_written_with_it_reads_back_to_the_same) {
+  const Scene scene = scene_with({"Scene/Quality = reference", "Loading/Axial rate ="});
+  put(folder_ / "copy.prm", scene_text(scene, folder_));
+  const Scene again = read_scene(folder_ / "copy.prm", {}, program("compress"));
+  EXPECT_EQ(again.time_step.safety, scene.time_step.safety);
+  EXPECT_EQ(again.loading.wave_transits, scene.loading.wave_transits);
+  EXPECT_TRUE(std::isnan(again.loading.rate));
 }
 
 // Besides the entries that the word stands for.
-std::vector<std::string> needs_of(SurfaceKind kind) {
+Entries needs_of(SurfaceKind kind) {
   if (kind == SurfaceKind::rubber_sheet)
     return {"Platens/Pad thickness = 0.2 mm", "Platens/Pad modulus = 100 MPa",
             "Platens/Pad Poisson ratio = 0.45", "Platens/Pad density = 1200 kg/m3"};
@@ -33,9 +64,11 @@ std::vector<std::string> needs_of(SurfaceKind kind) {
   return {};
 }
 
-TEST(Surfaces, every_word_sets_its_entries_says_its_source_and_can_be_written_back) {
+class Surfaces : public ScratchFolder {};
+
+TEST_F(Surfaces, every_word_sets_its_entries_says_its_source_and_can_be_written_back) {
   for (const Surface &one : surfaces()) {
-    std::vector<std::string> entries{"Platens/Surface = " + one.word};
+    Entries entries{"Platens/Surface = " + one.word};
     for (const std::string &need : needs_of(one.kind))
       entries.push_back(need);
     const Scene scene = scene_with(entries);
@@ -43,21 +76,19 @@ TEST(Surfaces, every_word_sets_its_entries_says_its_source_and_can_be_written_ba
       EXPECT_EQ(scene.parameters->at("Platens/" + key).text, text) << one.word << ", " << key;
     std::ostringstream told;
     print_parameters(scene, "", true, told);
-    EXPECT_NE(told.str().find(one.source), std::string::npos) << one.word;
-    EXPECT_NE(text_of(scene.platens).find(one.word), std::string::npos);
+    EXPECT_TRUE(contains(told.str(), one.source)) << one.word;
+    EXPECT_TRUE(contains(text_of(scene.platens), one.word));
 
-    const fs::path written = fs::temp_directory_path() / "platen_surface_written.prm";
-    const std::string text = scene_text(scene, written.parent_path());
-    std::ofstream(written) << text;
-    EXPECT_EQ(scene_text(read_scene(written.string(), {}, program("compress")), written.parent_path()), text)
+    const std::string text = scene_text(scene, folder_);
+    put(folder_ / "written.prm", text);
+    EXPECT_EQ(scene_text(read_scene(folder_ / "written.prm", {}, program("compress")), folder_), text)
         << one.word;
-    fs::remove(written);
   }
 }
 
 // The thickness that a plate has by default says nothing of a mesh.
-TEST(Surfaces, a_pad_of_meshes_may_be_as_thick_as_they_are) {
-  std::vector<std::string> entries = needs_of(SurfaceKind::rubber_sheet);
+TEST_F(Surfaces, a_pad_of_meshes_may_be_as_thick_as_they_are) {
+  Entries entries = needs_of(SurfaceKind::rubber_sheet);
   entries.insert(entries.end(), {"Platens/Kind = deformable", "Platens/Pad thickness = 1 m",
                                  "Platens/Top/Mesh file = " + good});
   EXPECT_THROW(scene_with(entries), InputError);
@@ -65,7 +96,7 @@ TEST(Surfaces, a_pad_of_meshes_may_be_as_thick_as_they_are) {
   EXPECT_NO_THROW(scene_with(entries));
 }
 
-TEST(Surfaces, the_figures_are_those_of_their_sources) {
+TEST_F(Surfaces, the_figures_are_those_of_their_sources) {
   const auto friction = [](const char *word) {
     const Scene scene = scene_with({std::string("Platens/Surface = ") + word});
     EXPECT_EQ(scene.platens.bottom.friction_static, scene.platens.top.friction_static);
@@ -80,7 +111,7 @@ TEST(Surfaces, the_figures_are_those_of_their_sources) {
   EXPECT_EQ(scene_with({"Platens/Surface = glued"}).platens.glued, true);
 }
 
-TEST(Surfaces, the_nearer_figure_wins) {
+TEST_F(Surfaces, the_nearer_figure_wins) {
   const Platens own = scene_with({"Platens/Surface = dry steel", "Platens/Friction dynamic = 0.4",
                                   "Platens/Top/Friction static = 0.5"})
                           .platens;
@@ -106,14 +137,11 @@ TEST(Surfaces, the_nearer_figure_wins) {
 }
 
 // A word on the command line, or in a file that includes another, is nearer than figures of the scene there.
-class SurfaceFiles : public testing::ScratchFolder {};
-
-TEST_F(SurfaceFiles, a_word_wins_over_figures_of_files_that_are_included) {
-  testing::put(folder_ / "inner.prm",
-               "include " + good + "\nsubsection Platens\n  set Friction static = 0.57\nend\n");
-  const auto with = [&](const std::string &word, const std::vector<std::string> &entries) {
+TEST_F(Surfaces, a_word_wins_over_figures_of_files_that_are_included) {
+  put(folder_ / "inner.prm", "include " + good + "\nsubsection Platens\n  set Friction static = 0.57\nend\n");
+  const auto with = [&](const std::string &word, const Entries &entries) {
     const fs::path outer = folder_ / "outer.prm";
-    testing::put(outer, "include inner.prm\nsubsection Platens\n" + word + "end\n");
+    put(outer, "include inner.prm\nsubsection Platens\n" + word + "end\n");
     return read_scene(outer.string(), entries, program("compress")).platens;
   };
   EXPECT_EQ(with("  set Surface = grease\n", {}).top.friction_static, 0.0048);
@@ -124,11 +152,11 @@ TEST_F(SurfaceFiles, a_word_wins_over_figures_of_files_that_are_included) {
   EXPECT_EQ(with("", {"Platens/Top/Surface = grease"}).bottom.friction_static, 0.57);
 }
 
-TEST(Surfaces, an_entry_that_only_a_word_has_set_is_not_noted) {
+TEST_F(Surfaces, an_entry_that_only_a_word_has_set_is_not_noted) {
   EXPECT_TRUE(scene_with({"Platens/Surface = grease"}).notes.empty());
   const Scene noted = scene_with({"Platens/Slip length = 1 mm"});
   ASSERT_EQ(noted.notes.size(), 1u);
-  EXPECT_NE(noted.notes[0].find("no Friction law is slip weakening"), std::string::npos);
+  EXPECT_TRUE(contains(noted.notes[0], "no Friction law is slip weakening"));
 }
 
 } // namespace

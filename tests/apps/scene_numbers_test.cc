@@ -1,15 +1,20 @@
-// Numbers with units, against values worked out by hand from the definitions of the units.
-#include <gtest/gtest.h>
-
+// Numbers with units, against values worked out by hand from the definitions of the units; and numbers that
+// nobody means: 5 for 5 MPa, 100 for 100 mm (tests/apps/faulty.txt has the words).
 #include <cmath>
 #include <locale>
+#include <map>
 
+#include "apps/read_scenes.h"
+#include "apps/scene/declare.h"
 #include "apps/scene/units.h"
 #include "apps/scene/values.h"
+#include "apps/scratch_folder.h"
 #include "base/pi.h"
 
 namespace platen::apps {
 namespace {
+
+using namespace testing;
 
 struct Conversion {
   const char *text, *unit;
@@ -94,7 +99,7 @@ TEST(SceneUnits, what_is_no_quantity_is_refused_with_its_reason) {
       to_si(r.text, r.unit);
       ADD_FAILURE() << r.text << " was read";
     } catch (const ValueError &error) {
-      EXPECT_NE(std::string(error.what()).find(r.reason), std::string::npos) << r.text << " " << error.what();
+      EXPECT_TRUE(contains(error.what(), r.reason)) << r.text << " " << error.what();
     }
 }
 
@@ -164,6 +169,61 @@ TEST(SceneValues, lists_are_parted_by_commas) {
   EXPECT_TRUE(read_list("", pascals).empty());
   EXPECT_THROW(read_list("1 GPa,, 2 GPa", pascals), ValueError);
   EXPECT_THROW(read_list("1 GPa, -2 GPa", pascals), ValueError);
+}
+
+// Whatever is declared in one of these units refuses such a number; a new entry does so by itself.
+TEST(MeantUnits, every_entry_of_the_unit_refuses_it) {
+  int stresses = 0, lengths = 0;
+  std::map<std::string, const apps::Program *> read_by; // of each entry one that has it
+  for (const apps::Program &of : programs()) {
+    const Scene scene = default_scene(of);
+    for (const Entry &entry : scene.parameters->entries())
+      read_by.emplace(entry.path, &of);
+  }
+  for (const auto &[path, of] : read_by) {
+    const Scene scene = default_scene(*of);
+    const Entry &entry = scene.parameters->at(path);
+    const bool stress = entry.unit == "Pa", length = entry.unit == "m";
+    if ((!stress && !length) || entry.path == "Platens/Mesh unit") continue;
+    const bool range = entry.path.rfind("Expect/", 0) == 0, domain = entry.path == "Study/Domain list";
+    const std::string number = stress ? "7" : "12", value = range    ? "... " + number
+                                                            : domain ? "12 x 12"
+                                                                     : number;
+    EXPECT_TRUE(testing::contains(said_with({entry.path + " = " + value}, of->name),
+                                  "is a bare number, which is in " + entry.unit))
+        << entry.path;
+    ++(stress ? stresses : lengths);
+  }
+  EXPECT_GT(stresses, 30);
+  EXPECT_GT(lengths, 20);
+}
+
+TEST(MeantUnits, what_tests_have_and_what_has_a_unit_is_taken) {
+  for (const Entries &entries : std::vector<Entries>{
+           {"Specimen/Radius = 0.005", "Specimen/Height = 0.01", "Specimen/Sphere radius = 1e-3"},
+           {"Bond/Modulus = 4e10", "Bond/Tensile strength = 9e6", "Bond/Shear strength = 30e6"},
+           {"Loading/Confinement = particles", "Loading/Confining pressure = 2000"},
+           {"Loading/Confinement = particles", "Loading/Confining pressure = 50 Pa"},
+           {"Bond/Modulus = 100000", "Bond/Tensile strength = 1000", "Bond/Shear strength = 1000",
+            "Loading/Axial rate = 1 mm/s"},
+           {"Specimen/Radius = 5 m", "Specimen/Height = 10 m", "Specimen/Sphere radius = 1 m",
+            "Loading/Axial rate = 1 m/s"},
+           {"Platens/Mesh unit = 1"},
+           {"Platens/Thickness = 0"},
+           {"Platens/Thickness = 0.999"},
+           {"Expect/strength_pa = 0 ... 40 MPa"},
+           // A gel of micrometre grains, a rock face of metres, atoms of a diamond lattice, masses that are
+           // scaled.
+           {"Bond/Modulus = 10 Pa", "Bond/Tensile strength = 5 Pa", "Bond/Shear strength = 5 Pa",
+            "Specimen/Sphere radius = 1 um", "Specimen/Radius = 10 um", "Specimen/Height = 20 um",
+            "Material/Density = 1000", "Loading/Axial rate = 1 um/s"},
+           {"Specimen/Sphere radius = 1 m", "Specimen/Radius = 50 m", "Specimen/Height = 100 m",
+            "Loading/Axial rate = 1 m/s"},
+           {"Bond/Modulus = 1 TPa", "Bond/Tensile strength = 100 GPa", "Specimen/Sphere radius = 1 nm",
+            "Specimen/Radius = 10 nm", "Specimen/Height = 20 nm", "Material/Density = 3500",
+            "Loading/Axial rate = 1 m/s"},
+           {"Material/Density = 1e7", "Loading/Axial rate = 1 mm/s"}})
+    EXPECT_EQ(said_with(entries), "") << entries.front();
 }
 
 } // namespace
