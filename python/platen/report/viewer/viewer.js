@@ -37,8 +37,19 @@
   const reach = Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) / 2;
 
   // ---- programs
-  const compile = (vertex, fragment) => {
-    const program = gl.createProgram();
+  const buffer = (data) => {
+    const b = gl.createBuffer();
+    refill(b, data);
+    return b;
+  };
+  const refill = (b, data) => {
+    gl.bindBuffer(gl.ARRAY_BUFFER, b);
+    gl.bufferData(gl.ARRAY_BUFFER, data, gl.DYNAMIC_DRAW);
+  };
+  // attributes: [buffer, numbers, type, whether 1 is the largest, whether it is of an instance] by name. Gives use(more): what is drawn next
+  // is drawn by it, with the uniforms of the view and `more`, numbers or arrays by name.
+  const program_of = (vertex, fragment, attributes) => {
+    const program = gl.createProgram(), array = gl.createVertexArray();
     for (const [type, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
       const shader = gl.createShader(type);
       gl.shaderSource(shader, '#version 300 es\nprecision highp float;\n' + text);
@@ -48,7 +59,23 @@
     }
     gl.linkProgram(program);
     if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
-    return program;
+    gl.bindVertexArray(array);
+    for (const [name, [b, size, type, normalized, instanced]] of Object.entries(attributes)) {
+      const where = gl.getAttribLocation(program, name);
+      gl.bindBuffer(gl.ARRAY_BUFFER, b);
+      gl.enableVertexAttribArray(where);
+      gl.vertexAttribPointer(where, size, type, Boolean(normalized), 0, 0);
+      gl.vertexAttribDivisor(where, instanced ? 1 : 0);
+    }
+    return (more) => {
+      gl.useProgram(program);
+      gl.bindVertexArray(array);
+      for (const [name, v] of Object.entries({...uniforms(), ...more})) {
+        const where = gl.getUniformLocation(program, name);
+        if (v.length === 9) gl.uniformMatrix3fv(where, true, v);
+        else gl['uniform' + (v.length || 1) + 'fv'](where, [v].flat());
+      }
+    };
   };
   const common = `
 uniform mat3 turn;        // specimen to view
@@ -58,7 +85,9 @@ uniform float reach, depth, magnify, step_;
 uniform vec3 origin;
 vec4 seen(vec3 v) { return vec4((v.xy + pan) / extent, -v.z / (4.0 * reach), 1.0); }
 `;
-  const sphere_program = compile(common + `
+  const corners = buffer(new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
+  const now_places = buffer(frames[0].place), colours = buffer(new Uint8Array(3 * N));
+  const use_spheres = program_of(common + `
 in vec2 corner; in vec3 place, first, colour; in float radius;
 out vec2 at; out vec3 tint; out vec2 spread;
 void main() {
@@ -76,8 +105,10 @@ void main() {
   gl_FragDepth = 0.5 + 0.5 * (spread.x - spread.y * z);
   float light = max(0.0, dot(vec3(at, z), normalize(vec3(-0.4, 0.5, 0.8))));
   colour = vec4(tint * (0.4 + 0.6 * light) + 0.06 * light, 1.0);
-}`);
-  const disc_program = compile(common + `
+}`, {corner: [corners, 2, gl.FLOAT], place: [now_places, 3, gl.UNSIGNED_SHORT, false, true],
+     first: [buffer(frames[0].place), 3, gl.UNSIGNED_SHORT, false, true], colour: [colours, 3, gl.UNSIGNED_BYTE, true, true],
+     radius: [buffer(radius), 1, gl.FLOAT, false, true]});
+  const use_discs = program_of(common + `
 in vec2 corner; in vec3 place, normal; in float size, mode, since; uniform vec2 shown; uniform float now;
 out vec2 at; out vec3 tint;
 void main() {
@@ -89,8 +120,13 @@ void main() {
   gl_Position = hidden ? vec4(2.0, 2.0, 2.0, 1.0) : seen(v);
 }`, `
 in vec2 at; in vec3 tint; out vec4 colour;
-void main() { if (dot(at, at) > 1.0) discard; colour = vec4(tint, 1.0); }`);
-  const veil_program = compile(common + `
+void main() { if (dot(at, at) > 1.0) discard; colour = vec4(tint, 1.0); }`,
+    {corner: [corners, 2, gl.FLOAT], place: [buffer(crack.place), 3, gl.UNSIGNED_SHORT, false, true],
+     normal: [buffer(crack.normal), 3, gl.BYTE, true, true], mode: [buffer(crack.mode), 1, gl.UNSIGNED_BYTE, false, true],
+     size: [buffer(Float32Array.from(crack.size, (s) => s * meta.radius_step)), 1, gl.FLOAT, false, true],
+     since: [buffer(crack.frame), 1, gl.UNSIGNED_BYTE, false, true]});
+  const veil_places = buffer(sleeve_frames[0]);
+  const use_veil = program_of(common + `
 in vec3 place, first;
 out vec3 was, now;
 void main() {
@@ -103,68 +139,24 @@ void main() {
   if (dot(cut, was) > depth) discard;
   float facing = abs(normalize(cross(dFdx(now), dFdy(now))).z);
   colour = vec4(ink, veil * (1.5 - facing));
-}`);
-  const line_program = compile(common + 'in vec3 place; void main() { gl_Position = seen(turn * (place - middle)); }',
-    'uniform vec3 ink; out vec4 colour; void main() { colour = vec4(ink, 1.0); }');
-
-  // ---- buffers
-  const buffer = (data, usage) => {
-    const b = gl.createBuffer();
-    gl.bindBuffer(gl.ARRAY_BUFFER, b);
-    gl.bufferData(gl.ARRAY_BUFFER, data, usage || gl.STATIC_DRAW);
-    return b;
-  };
-  const attribute = (program, name, b, size, type, normalized, divisor) => {
-    const where = gl.getAttribLocation(program, name);
-    if (where < 0) return;
-    gl.bindBuffer(gl.ARRAY_BUFFER, b);
-    gl.enableVertexAttribArray(where);
-    gl.vertexAttribPointer(where, size, type, normalized, 0, 0);
-    gl.vertexAttribDivisor(where, divisor);
-  };
-  const corners = buffer(new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
-  const first_places = buffer(frames[0].place), now_places = buffer(frames[0].place, gl.DYNAMIC_DRAW);
-  const colours = buffer(new Uint8Array(3 * N), gl.DYNAMIC_DRAW), radii = buffer(radius);
-  const spheres = gl.createVertexArray();
-  gl.bindVertexArray(spheres);
-  attribute(sphere_program, 'corner', corners, 2, gl.FLOAT, false, 0);
-  attribute(sphere_program, 'place', now_places, 3, gl.UNSIGNED_SHORT, false, 1);
-  attribute(sphere_program, 'first', first_places, 3, gl.UNSIGNED_SHORT, false, 1);
-  attribute(sphere_program, 'colour', colours, 3, gl.UNSIGNED_BYTE, true, 1);
-  attribute(sphere_program, 'radius', radii, 1, gl.FLOAT, false, 1);
-  const discs = gl.createVertexArray();
-  gl.bindVertexArray(discs);
-  attribute(disc_program, 'corner', corners, 2, gl.FLOAT, false, 0);
-  attribute(disc_program, 'place', buffer(crack.place), 3, gl.UNSIGNED_SHORT, false, 1);
-  attribute(disc_program, 'normal', buffer(crack.normal), 3, gl.BYTE, true, 1);
-  attribute(disc_program, 'size', buffer(Float32Array.from(crack.size, (s) => s * meta.radius_step)), 1, gl.FLOAT, false, 1);
-  attribute(disc_program, 'mode', buffer(crack.mode), 1, gl.UNSIGNED_BYTE, false, 1);
-  attribute(disc_program, 'since', buffer(crack.frame), 1, gl.UNSIGNED_BYTE, false, 1);
-  const lines = gl.createVertexArray(), line_places = gl.createBuffer();
-  gl.bindVertexArray(lines);
-  gl.bindBuffer(gl.ARRAY_BUFFER, line_places);
-  gl.bufferData(gl.ARRAY_BUFFER, 12, gl.DYNAMIC_DRAW);
-  attribute(line_program, 'place', line_places, 3, gl.FLOAT, false, 0);
-  // Triangles of each face of the sleeve, and the edges around it.
-  const veil = gl.createVertexArray(), veil_places = buffer(sleeve_frames[0], gl.DYNAMIC_DRAW);
+}`, {place: [veil_places, 3, gl.UNSIGNED_SHORT], first: [buffer(sleeve_first), 3, gl.UNSIGNED_SHORT]});
+  // Triangles of each face of the sleeve, and the edges around it: two of each face, the others are those of its neighbours.
   const sleeve_faces = meta.sleeve ? meta.sleeve.faces : [], triangles = [], edges_of_sleeve = [];
   for (let k = 0; k < sleeve_faces.length; k += 4) {
     const [a, b, c, d] = sleeve_faces.slice(k, k + 4);
     triangles.push(a, b, c, a, c, d);
-    edges_of_sleeve.push(a, b, b, c); // the other two are those of its neighbours
+    edges_of_sleeve.push(a, b, b, c);
   }
-  gl.bindVertexArray(veil);
-  attribute(veil_program, 'place', veil_places, 3, gl.UNSIGNED_SHORT, false, 0);
-  attribute(veil_program, 'first', buffer(sleeve_first), 3, gl.UNSIGNED_SHORT, false, 0);
   gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
   gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, Uint32Array.from(triangles.concat(edges_of_sleeve)), gl.STATIC_DRAW);
-  gl.bindVertexArray(null);
+  const line_places = buffer(new Float32Array(3));
+  const use_lines = program_of(common + 'in vec3 place; void main() { gl_Position = seen(turn * (place - middle)); }',
+    'uniform vec3 ink; out vec4 colour; void main() { colour = vec4(ink, 1.0); }', {place: [line_places, 3, gl.FLOAT]});
 
   // ---- colours
-  const ramps = {
-    damage: [[0.78, 0.78, 0.78], [0.95, 0.75, 0.45], [0.84, 0.37, 0.0], [0.45, 0.05, 0.05]],
-    displacement: [[0.27, 0.0, 0.33], [0.23, 0.32, 0.55], [0.13, 0.57, 0.55], [0.37, 0.79, 0.38], [0.99, 0.91, 0.14]]};
-  ramps.outward = ramps.displacement;
+  const viridis = [[0.27, 0.0, 0.33], [0.23, 0.32, 0.55], [0.13, 0.57, 0.55], [0.37, 0.79, 0.38], [0.99, 0.91, 0.14]];
+  const ramps = {damage: [[0.78, 0.78, 0.78], [0.95, 0.75, 0.45], [0.84, 0.37, 0.0], [0.45, 0.05, 0.05]], displacement: viridis,
+                 outward: viridis};
   const palette = [[0.0, 0.62, 0.45], [0.80, 0.47, 0.65], [0.34, 0.71, 0.91], [0.94, 0.89, 0.26], [0.84, 0.37, 0.0], [0.55, 0.34, 0.29],
                    [0.15, 0.15, 0.15], [0.90, 0.62, 0.0], [0.0, 0.45, 0.70], [0.45, 0.65, 0.12]];
   const loose = [0.88, 0.88, 0.88];
@@ -202,8 +194,7 @@ void main() {
       const c = s === state.picked ? [1, 0, 1] : colour_of(state.quantity, state.frame, s);
       for (let k = 0; k < 3; ++k) data[3 * s + k] = Math.round(255 * c[k]);
     }
-    gl.bindBuffer(gl.ARRAY_BUFFER, colours);
-    gl.bufferSubData(gl.ARRAY_BUFFER, 0, data);
+    refill(colours, data);
   };
 
   // ---- geometry of the view: x to the right, z up, y away
@@ -228,21 +219,8 @@ void main() {
     const height = 1.05 * Math.min(Math.max(half(framed[0]), half(framed[1])), 1.3 * half(framed[0])) / state.zoom;
     return [height * wide, height];
   };
-  const uniforms = (program, m) => {
-    gl.useProgram(program);
-    const u = (name) => gl.getUniformLocation(program, name);
-    gl.uniformMatrix3fv(u('turn'), true, m.flat());
-    gl.uniform3fv(u('middle'), middle);
-    gl.uniform3fv(u('origin'), meta.origin);
-    gl.uniform1f(u('step_'), meta.step);
-    gl.uniform3fv(u('cut'), cut_direction());
-    gl.uniform1f(u('depth'), cut_depth());
-    gl.uniform2fv(u('pan'), state.pan);
-    gl.uniform2fv(u('extent'), extent());
-    gl.uniform1f(u('reach'), reach);
-    gl.uniform1f(u('magnify'), state.magnify);
-    return u;
-  };
+  const uniforms = () => ({turn: turn().flat(), middle, origin: meta.origin, step_: meta.step, cut: cut_direction(), depth: cut_depth(),
+                           pan: state.pan, extent: extent(), reach, magnify: state.magnify});
   const box_edges = (b) => {
     const p = corners_of(b), edges = [];
     if (b[6]) { // round about z: two circles, and four lines up
@@ -264,39 +242,25 @@ void main() {
     gl.clearColor(1, 1, 1, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
-    const m = turn();
-    uniforms(sphere_program, m);
-    gl.bindVertexArray(spheres);
+    use_spheres();
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, N);
     if (C > 0 && (state.tension || state.shear)) {
-      const u = uniforms(disc_program, m);
-      gl.uniform2f(u('shown'), state.tension ? 1 : 0, state.shear ? 1 : 0);
-      gl.uniform1f(u('now'), state.frame);
-      gl.bindVertexArray(discs);
+      use_discs({shown: [Number(state.tension), Number(state.shear)], now: state.frame});
       gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, C);
     }
     const edges = Float32Array.from(meta.frames[state.frame].platens.flatMap(box_edges));
     if (edges.length > 0) {
-      const u = uniforms(line_program, m);
-      gl.uniform3f(u('ink'), 0.25, 0.25, 0.3);
-      gl.bindVertexArray(lines);
-      gl.bindBuffer(gl.ARRAY_BUFFER, line_places);
-      gl.bufferData(gl.ARRAY_BUFFER, edges, gl.DYNAMIC_DRAW);
+      use_lines({ink: [0.25, 0.25, 0.3]});
+      refill(line_places, edges);
       gl.drawArrays(gl.LINES, 0, edges.length / 3);
     }
-    if (meta.sleeve && state.sleeve) draw_sleeve(m);
-    gl.bindVertexArray(null);
-  };
-  const draw_sleeve = (m) => { // over all else, which it lets through
-    const u = uniforms(veil_program, m);
-    gl.uniform3f(u('ink'), 0.55, 0.43, 0.4);
-    gl.bindVertexArray(veil);
-    gl.enable(gl.BLEND);
+    if (!meta.sleeve || !state.sleeve) return;
+    gl.enable(gl.BLEND); // the sleeve is over all else, which it lets through
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     gl.depthMask(false);
-    gl.uniform1f(u('veil'), 0.35);
+    use_veil({ink: [0.55, 0.43, 0.4], veil: 0.35});
     gl.drawElements(gl.TRIANGLES, triangles.length, gl.UNSIGNED_INT, 0);
-    gl.uniform1f(u('veil'), 0.5);
+    use_veil({ink: [0.55, 0.43, 0.4], veil: 0.5});
     gl.drawElements(gl.LINES, edges_of_sleeve.length, gl.UNSIGNED_INT, 4 * triangles.length);
     gl.depthMask(true);
     gl.disable(gl.BLEND);
@@ -332,10 +296,8 @@ void main() {
            words.map((q) => names[q] + ' ' + said(q, value(q, state.frame, state.picked))).join(', '));
   };
   const show_frame = () => {
-    gl.bindBuffer(gl.ARRAY_BUFFER, now_places);
-    gl.bufferSubData(gl.ARRAY_BUFFER, 0, frames[state.frame].place);
-    gl.bindBuffer(gl.ARRAY_BUFFER, veil_places);
-    gl.bufferSubData(gl.ARRAY_BUFFER, 0, sleeve_frames[state.frame]);
+    refill(now_places, frames[state.frame].place);
+    refill(veil_places, sleeve_frames[state.frame]);
     refresh();
   };
   const refresh = () => { colour_all(); describe(); redraw(); };
