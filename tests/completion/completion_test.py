@@ -2,11 +2,33 @@
 import os
 import pty
 import select
+import tempfile
 import time
 import unittest
+from pathlib import Path
 
 APPS, SCRIPT = os.environ["PLATEN_APPS"], os.environ["PLATEN_COMPLETION"]
 MARK = "ready> "
+COMPLETED = {  # what is typed, and what becomes of it
+    "programs": {"platen comp": "platen compress "},
+    "scenes that came with it": {"platen scenes demo_d": "platen scenes demo_dry "},
+    "options": {"platen-compress --over": "--overwrite ", "platen compress --dry": "--dry-run "},
+    "scene files": {"platen-compress mi": "mine.prm "},
+    "kinds of studies": {"platen-study fric": "friction ", "platen study acc": "accuracy "},
+    "entries in quotes": {'platen-compress -s "Bond/Ga': '"Bond/Gap = ', 'platen-compress -s "Platens/Friction st': '"Platens/Friction static = '},
+    "entries without quotes": {"platen-compress -s Bond/Ga": "Bond/Gap\\ =\\ ",
+                               "platen-compress -s Platens/Friction\\ st": "Platens/Friction\\ static\\ =\\ "},
+    "words of an entry": {'platen-compress -s "Effects/Bond = coh': "Effects/Bond = cohesive beam"},
+    "what is printed": {"platen-compress --print-parameters Bond/Gap": "Bond/Gap "},
+    "folders of results": {"platen-report resu": "results/", "platen-compress mine.prm -o resu": "results/"}}
+LISTED = {  # what is typed, words of the list, and what it must not have
+    "programs": ("platen ", ("brazilian", "study", "scenes", "--version"), ""),
+    "options": ("platen-study --", ("--plan", "--collect", "--resume"), ""),
+    "scene files and folders alone": ("platen-compress ", ("mine.prm", "results"), "notes.txt"),
+    "entries": ('platen-compress -s "Integration/', ("Integration/Safety", "Integration/Scheme"), ""),
+    "entries of the program that is asked": ('platen-study -s "Study/', ("Study/Slenderness list",), ""),
+    "and of no other program": ('platen-bonds -s "Stud', (), "Study/Slenderness"),
+    "words of an entry": ('platen-compress -s "Loading/Confinement = ', ("particles", "sleeve"), "")}
 
 
 class Shell:
@@ -57,75 +79,26 @@ class Shell:
 class Completion(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        import tempfile
+        kept = tempfile.TemporaryDirectory(prefix="platen completion ")
+        cls.addClassCleanup(kept.cleanup)
+        for name in ("mine.prm", "notes.txt"):
+            Path(kept.name, name).write_text("# a scene\n")
+        Path(kept.name, "results").mkdir()
+        cls.shell = Shell(kept.name)
+        cls.addClassCleanup(cls.shell.close)
 
-        cls.folder = tempfile.TemporaryDirectory(prefix="platen completion ")
-        with open(os.path.join(cls.folder.name, "mine.prm"), "w") as file:
-            file.write("# a scene\n")
-        with open(os.path.join(cls.folder.name, "notes.txt"), "w") as file:
-            file.write("no scene\n")
-        os.mkdir(os.path.join(cls.folder.name, "results"))
-        cls.shell = Shell(cls.folder.name)
+    def test_a_word_becomes_what_it_begins(self):
+        for what, words in COMPLETED.items():
+            for typed, becomes in words.items():
+                self.assertIn(becomes, self.shell.complete(typed), f"{what}: typed {typed!r}")
 
-    @classmethod
-    def tearDownClass(cls):
-        cls.shell.close()
-        cls.folder.cleanup()
-
-    def completes(self, typed, becomes):
-        said = self.shell.complete(typed)
-        self.assertIn(becomes, said, f"typed {typed!r}")
-
-    def lists(self, typed, *words):
-        said = self.shell.complete(typed, 2)
-        for word in words:
-            self.assertIn(word, said, f"typed {typed!r}")
-        return said
-
-    def test_programs_of_platen(self):
-        self.completes("platen comp", "platen compress ")
-        self.lists("platen ", "brazilian", "study", "scenes", "--version")
-
-    def test_scenes_that_came_with_it(self):
-        self.completes("platen scenes demo_d", "platen scenes demo_dry ")
-
-    def test_options(self):
-        self.completes("platen-compress --over", "--overwrite ")
-        self.completes("platen compress --dry", "--dry-run ")
-        self.lists("platen-study --", "--plan", "--collect", "--resume")
-
-    def test_scene_files_and_folders_alone(self):
-        self.completes("platen-compress mi", "mine.prm ")
-        said = self.lists("platen-compress ", "mine.prm", "results")
-        self.assertNotIn("notes.txt", said)
-
-    def test_kinds_of_studies(self):
-        self.completes("platen-study fric", "friction ")
-        self.completes("platen study acc", "accuracy ")
-
-    def test_entries_in_quotes(self):
-        self.completes('platen-compress -s "Bond/Ga', '"Bond/Gap = ')
-        self.completes('platen-compress -s "Platens/Friction st', '"Platens/Friction static = ')
-        self.lists('platen-compress -s "Integration/', "Integration/Safety", "Integration/Scheme")
-
-    def test_entries_without_quotes(self):
-        self.completes("platen-compress -s Bond/Ga", "Bond/Gap\\ =\\ ")
-        self.completes("platen-compress -s Platens/Friction\\ st", "Platens/Friction\\ static\\ =\\ ")
-
-    def test_entries_of_the_program_that_is_asked(self):
-        self.lists('platen-study -s "Study/', "Study/Slenderness list")
-        self.assertNotIn("Study/Slenderness", self.shell.complete('platen-bonds -s "Stud', 2).split("\n")[-1])
-
-    def test_words_of_an_entry(self):
-        self.completes('platen-compress -s "Effects/Bond = coh', "Effects/Bond = cohesive beam")
-        self.lists('platen-compress -s "Loading/Confinement = ', "particles", "sleeve")
-
-    def test_what_is_printed(self):
-        self.completes("platen-compress --print-parameters Bond/Gap", "Bond/Gap ")
-
-    def test_folders_of_results(self):
-        self.completes("platen-report resu", "results/")
-        self.completes("platen-compress mine.prm -o resu", "results/")
+    def test_choices_are_listed_and_nothing_else(self):
+        for what, (typed, words, absent) in LISTED.items():
+            said = self.shell.complete(typed, 2)
+            for word in words:
+                self.assertIn(word, said, f"{what}: typed {typed!r}")
+            if absent:
+                self.assertNotIn(absent, said.split("\n")[-1] if not words else said, f"{what}: typed {typed!r}")
 
 
 if __name__ == "__main__":

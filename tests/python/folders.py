@@ -39,6 +39,12 @@ def differing(one, other):
 
 class InFolder(unittest.TestCase):
     def setUp(self):
-        self.kept = tempfile.TemporaryDirectory(prefix="platen python ")
-        self.folder = Path(self.kept.name)
-        self.addCleanup(self.kept.cleanup)
+        kept = tempfile.TemporaryDirectory(prefix="platen python ")
+        self.addCleanup(kept.cleanup)
+        self.folder = Path(kept.name)
+
+    def experiment(self, name="run", more=None, **options):
+        """The small cylinder, with further entries."""
+        import platen
+
+        return platen.Experiment(CRUSHED, set={**SMALL, **(more or {})}, output=self.folder / name, **options)

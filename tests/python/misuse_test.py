@@ -35,9 +35,6 @@ def in_threads(*acts):
 
 
 class Threads(InFolder):
-    def experiment(self, name="run", **options):
-        return platen.Experiment(CRUSHED, set=SMALL, output=self.folder / name, **options)
-
     def test_two_threads_that_advance_one_experiment_write_what_one_writes(self):
         self.experiment("one").run()
         experiment = self.experiment("two")
@@ -78,7 +75,7 @@ class Threads(InFolder):
         self.assertGreater(len(set(seen)), 5, "it looked while rows were added")
 
     def test_two_threads_that_end_it_are_told_the_same(self):
-        experiment = platen.Experiment(CRUSHED, set={**SMALL, "Expect/strength_pa": "1 MPa ... 2 MPa"}, output=self.folder / "run")
+        experiment = self.experiment(more={"Expect/strength_pa": "1 MPa ... 2 MPa"})
         while experiment.advance(samples=50):
             pass
         self.assertEqual(in_threads(experiment.end, experiment.end, experiment.end), [])
@@ -116,6 +113,8 @@ class Threads(InFolder):
         self.assertEqual(in_threads(advance, advance), [])
         self.assertTrue(raised)
         self.assertEqual(list(raised), list(raised.values()))
+        experiment.on_sample = None
+        self.assertTrue(experiment.advance(samples=1), "it can go on")
 
     def test_a_callback_cannot_advance_or_end_what_calls_it(self):
         experiment = self.experiment()
@@ -144,40 +143,42 @@ class Threads(InFolder):
 class Arguments(InFolder):
     def setUp(self):
         super().setUp()
-        self.experiment = platen.Experiment(CRUSHED, set=SMALL, output=self.folder / "run")
-        self.addCleanup(self.experiment.close)
+        self.made = self.experiment()
+        self.addCleanup(self.made.close)
 
     def test_limits_that_are_none(self):
+        with self.assertRaisesRegex(platen.InputError, "needs a limit"):
+            self.made.advance()
         for limit in ("strain", "time", "steps", "samples"):
             wrong = [*NO_NUMBERS, -1, -1e-9]
             wrong += [1.0001, 2] if limit == "strain" else []
             wrong += [1.5, 0.0, numpy.float64(2)] if limit in ("steps", "samples") else []
             for value in wrong:
                 with self.assertRaisesRegex(platen.InputError, f"{limit} = .*Allowed", msg=repr(value)):
-                    self.experiment.advance(**{limit: value})
-        self.assertEqual(self.experiment.steps, 0)
+                    self.made.advance(**{limit: value})
+        self.assertEqual(self.made.steps, 0)
 
     def test_limits_of_numpy_are_numbers(self):
-        self.assertTrue(self.experiment.advance(steps=numpy.int64(16)))
-        self.assertEqual(self.experiment.steps, 16)
-        self.assertTrue(self.experiment.advance(steps=0, strain=numpy.float64(0.9)))
-        self.assertEqual(self.experiment.steps, 16)
-        self.assertTrue(self.experiment.advance(strain=numpy.float32(0.0)))
+        self.assertTrue(self.made.advance(steps=numpy.int64(16)))
+        self.assertEqual(self.made.steps, 16)
+        self.assertTrue(self.made.advance(steps=0, strain=numpy.float64(0.9)))
+        self.assertEqual(self.made.steps, 16)
+        self.assertTrue(self.made.advance(strain=numpy.float32(0.0)))
 
     def test_entries_and_values_that_are_none(self):
         for entries in ([1], 5, "Scene/Title", {1: 2}, {None: 1}):
             with self.assertRaisesRegex(platen.InputError, "no entries"):
-                self.experiment.change(entries)
+                self.made.change(entries)
             with self.assertRaisesRegex(platen.InputError, "no entries"):
                 platen.Experiment(CRUSHED, set=entries, output=self.folder / "none")
         for value in (None, {}, object(), 1j, b"1"):
             with self.assertRaises(platen.InputError) as caught:
-                self.experiment.change({"Contact/Friction": value})
+                self.made.change({"Contact/Friction": value})
             self.assertEqual(caught.exception.entry, "Contact/Friction")
         for value in (math.nan, math.inf, "nan", [], "\udcff"):
             with self.assertRaises(platen.InputError):
-                self.experiment.change({"Contact/Friction": value})
-        self.assertNotIn("changes", self.experiment.summary)
+                self.made.change({"Contact/Friction": value})
+        self.assertNotIn("changes", self.made.summary)
 
     def test_half_a_character(self):
         for entries in ({"Scene/Title": "half \ud800"}, {"Scene/\ud800": 1}):
@@ -185,13 +186,13 @@ class Arguments(InFolder):
                 platen.Experiment(CRUSHED, set=entries, output=self.folder / "none")
 
     def test_values_of_numpy_are_values(self):
-        values = {**SMALL, "Contact/Friction": numpy.float64(0.25), "Effects/Rotation": numpy.bool_(True), "Output/Every": numpy.int64(30)}
-        with platen.Experiment(CRUSHED, set=values, output=self.folder / "numpy") as experiment:
+        values = {"Contact/Friction": numpy.float64(0.25), "Effects/Rotation": numpy.bool_(True), "Output/Every": numpy.int64(30)}
+        with self.experiment("numpy", values) as experiment:
             text = Path(experiment.folder, "scene.prm").read_text()
         self.assertRegex(text, r"set Every\s*= 30\n")
 
     def test_arguments_of_an_experiment(self):
-        for name, values in {"scene": NO_PATHS, "output": NO_PATHS, "threads": (*NO_NUMBERS, 0, -1, 1.5, None),
+        for name, values in {"scene": NO_PATHS, "output": NO_PATHS, "threads": (*NO_NUMBERS, 0, -1, 1.5, 100000, None),
                              "overwrite": ("no", 1, None), "disc": ("x", 0), "verbose": (1.5, None)}.items():
             for value in values:
                 options = {"scene": CRUSHED, "set": SMALL, "output": self.folder / "none", name: value}
@@ -222,17 +223,17 @@ class Arguments(InFolder):
     def test_callbacks_that_are_none(self):
         for value in (5, "print", []):
             with self.assertRaisesRegex(platen.InputError, "on_sample"):
-                self.experiment.on_sample = value
-        self.assertIsNone(self.experiment.on_sample)
+                self.made.on_sample = value
+        self.assertIsNone(self.made.on_sample)
 
     def test_a_closed_experiment_is_looked_at_and_goes_on_nowhere(self):
-        self.experiment.advance(samples=2)
-        self.experiment.close()
-        self.experiment.close()
-        self.assertGreaterEqual(self.experiment.history.rows, 2)
-        self.assertTrue(self.experiment.summary and self.experiment.units and repr(self.experiment))
-        for act in (self.experiment.run, self.experiment.end, lambda: self.experiment.advance(steps=1),
-                    lambda: self.experiment.change({"Contact/Friction": 0.1})):
+        self.made.advance(samples=2)
+        self.made.close()
+        self.made.close()
+        self.assertGreaterEqual(self.made.history.rows, 2)
+        self.assertTrue(self.made.summary and self.made.units and repr(self.made))
+        for act in (self.made.run, self.made.end, lambda: self.made.advance(steps=1),
+                    lambda: self.made.change({"Contact/Friction": 0.1})):
             with self.assertRaises(platen.InputError):
                 act()
 
@@ -246,7 +247,7 @@ class Arguments(InFolder):
 class Results(InFolder):
     def setUp(self):
         super().setUp()
-        with platen.Experiment(CRUSHED, set={**SMALL, "Loading/Target strain": 5e-4}, output=self.folder / "run") as experiment:
+        with self.experiment(more={"Loading/Target strain": 5e-4}) as experiment:
             self.run_ = experiment.run()
 
     def test_paths_that_are_none(self):
