@@ -128,7 +128,7 @@ TEST_F(LedOn, what_would_change_the_physics_is_refused_by_name) {
       entries[1] = entry;
     else
       entries.push_back(entry);
-    const Outcome outcome = run_compress(arguments("led", entries, {"--resume"}), folder_);
+    const Outcome outcome = run_compress(arguments("led", entries, {"--resume", "--quiet"}), folder_);
     EXPECT_EQ(outcome.status, 2) << entry;
     EXPECT_TRUE(contains(outcome.error, "error: " + entry + " was " + says));
     EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
@@ -192,7 +192,7 @@ protected:
     }
     to.finish();
   }
-  Outcome resumed() const { return run_compress(arguments("run", small_, {"--resume"}), folder_); }
+  Outcome resumed() const { return run_compress(arguments("run", small_, {"--resume", "--quiet"}), folder_); }
 
   const Words small_{"Specimen/Sphere radius = 1.7 mm", "Checkpoint/Every = 100",
                      "Loading/Target strain = 0.003"};

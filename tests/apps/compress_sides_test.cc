@@ -291,7 +291,7 @@ TEST_F(Sides, what_the_library_refuses_is_told_by_key) {
   };
   refuses(
       {"Platens/Edge gap = 4 mm"},
-      "command line, --set 1: error: Platens/Edge gap = 4 mm leaves too little of a platen. Allowed: up to "
+      "command line, --set 2: error: Platens/Edge gap = 4 mm leaves too little of a platen. Allowed: up to "
       "0.0035 m, a quarter");
   put(folder_ / "round.csv",
       "x_m,y_m,z_m,radius_m\n0,0,0.001,0.001\n0.0021,0,0.001,0.001\n"
