@@ -12,8 +12,8 @@
 
 #include "apps/output/checkpoint.h"
 #include "apps/output/checkpoint_folder.h"
-#include "base/vector3.h"
 #include "apps/scratch_folder.h"
+#include "base/vector3.h"
 #include "tests/same_state.h"
 
 namespace platen::apps {

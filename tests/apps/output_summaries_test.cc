@@ -10,8 +10,8 @@
 #include "apps/output/seed_statistics.h"
 #include "apps/output/sha256.h"
 #include "apps/output/summary.h"
-#include "base/parallel.h"
 #include "apps/scratch_folder.h"
+#include "base/parallel.h"
 
 namespace platen::apps {
 namespace {

@@ -1,6 +1,6 @@
 // Checkpoints: as they come, or (first byte odd) with checksums made to hold, so that what lies behind them
-// is reached as well. All that opens is read out by every way that there is. With PLATEN_FUZZ_SEED in the environment
-// it writes a small checkpoint to that file, to begin with, and ends.
+// is reached as well. All that opens is read out by every way that there is. With PLATEN_FUZZ_SEED in the
+// environment it writes a small checkpoint to that file, to begin with, and ends.
 #include <xxhash.h>
 
 #include <cstdint>
