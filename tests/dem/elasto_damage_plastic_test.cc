@@ -248,6 +248,22 @@ TEST(CohesiveMoments, are_those_of_the_parallel_bond_while_whole) {
   EXPECT_NEAR(s.twisting, pair.twisting(), 1e-12 * s.twisting);
 }
 
+// Sheared, bent and twisted, of spheres that differ: what is told is what acts, on each of both ends.
+TEST(CohesiveMoments, told_of_both_ends_are_those_that_act) {
+  Interface pair(bending_concrete());
+  pair.geometry.lever = 0.3;
+  pair.OneBond::move({2e-7, -3e-7, 1e-7}, {1e-5, 2e-5, -3e-5}, {-2e-5, 1e-5, 2e-5});
+  const BondResponse<double> told = pair.law.bond_response(pair.state, pair.geometry, pair.pose);
+  EXPECT_GT(std::abs(pair.now.torque_i.x - pair.now.torque_j.x), 0.3 * std::abs(pair.now.torque_i.x));
+  const auto near = [](const Triple<double> &a, const Triple<double> &b) {
+    EXPECT_LT(norm(vector(a - b)), 1e-13 * norm(vector(b)));
+  };
+  near(told.force, pair.now.force);
+  near(told.torque_i, pair.now.torque_i);
+  near(told.torque_j, pair.now.torque_j);
+  EXPECT_NEAR(told.energy, pair.now.energy, 1e-13 * told.energy);
+}
+
 // beta M R/I is a stress of tension at the skin, beta M R/J one of shear: damage begins at the strength,
 // falls along a line, and ends at 1 + delta times its angle with nothing left. What it took is the area under
 // the curve.
