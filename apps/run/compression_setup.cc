@@ -51,8 +51,7 @@ dem::Shape as_pressed(const dem::Shape &shape, const Scene &scene, Pressed press
 
 // Wave transits of the height within which platens without inertia have to follow their loads along their
 // way. A specimen that breaks sheds its load within a few; what comes later is too soft beside its contacts
-// to be solved for now and then, and most so across, where a sheet is pressed out
-// (elastic_platens.DISABLED_what_lag_does).
+// to be solved for now and then, and most so across, where a sheet is pressed out.
 constexpr double latest_by_transits = 15;
 
 void require_prompt_platens(const coupling::PlatenTest &test) {
