@@ -4,7 +4,7 @@
 //
 // In stresses: k_n = E/|D| and k_s = r k_n per area, q = k_n p the plastic closing, u the elastic slip at the
 // point of contact, that of the poses less the plastic slip P, x the spring of friction:
-//   T = k_n (|d| - |D|) + q, t = k_s |u|               T > 0: open
+//   T = k_n (|d| - |D|) + q, t = k_s |u|               T > 0: open, else closed
 //   q >= e - envelope(e), e = -k_n (|d| - |D|)         also once it has failed
 //   open:    a = (T/sigma_t + sqrt((T/sigma_t)^2 + (2 t/sigma_s)^2))/2
 //            D >= 1 - exp(-h (a - 1))/a                where a > 1: beyond (t/sigma_s)^2 + T/sigma_t = 1
@@ -408,7 +408,8 @@ PLATEN_INLINE CohesiveResponse<Real> FacetBond::operator()(State<Real> &s, const
 
   // Plastic slip of what is sound, by radial return; bonds that have failed have none.
   const Real limit = shear_limit(g, closing, where_positive(s.broken, zero, e.sliding));
-  const Real over = where_positive(closing, positive_part(Real(e.sliding - limit)), zero);
+  const Real over =
+      where_positive(e.tension, zero, positive_part(Real(e.sliding - limit))); // closed at 0 too
   const Real share =
       where_positive(s.broken, zero, Real(over / where_positive(e.sliding, e.sliding, Real(zero + 1.0))));
   if (any_positive(share)) {

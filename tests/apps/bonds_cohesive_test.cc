@@ -271,6 +271,19 @@ TEST(bonds_cohesive, a_facet_takes_its_fracture_energy) {
   EXPECT_NEAR(run.rows.back().work, run.rows.back().dissipated, 1e-5 * 20 * area);
 }
 
+TEST(bonds_cohesive, a_facet_is_sheared_up_to_its_cohesion) {
+  const BondRun run = run_bond_tests(read_scene(std::string(PLATEN_SCENES) + "/softening_bond.prm",
+                                                {"Effects/Bond = facet", "Bond/Fracture energy = 20 J/m2",
+                                                 "Bond/Stiffness ratio = 0.4", "Pair test/Path = shear",
+                                                 "Pair test/Displacement = 8 um"},
+                                                program("bonds")))
+                          .at(0);
+  EXPECT_NEAR(run.rows.back().force, 16e6 * area, 1e-3 * 16e6 * area);
+  const double slip = 8e-6 - 16e6 / (0.4 * kn);
+  EXPECT_NEAR(run.rows.back().dissipated, 16e6 * slip * area, 2e-3 * run.rows.back().dissipated);
+  EXPECT_TRUE(std::isnan(run.fracture_energy)); // it has not failed
+}
+
 TEST(bonds_cohesive, without_rotation_the_normal_law_is_the_same) {
   const ComparedRun with = run_pair({}), without = run_pair({"Effects/Rotation = off"});
   ASSERT_EQ(with.rows.size(), without.rows.size());

@@ -123,6 +123,21 @@ TEST(FacetBond, shear_under_pressure_is_plastic_at_its_limit) {
   }
 }
 
+// Where there is neither tension nor pressure, to the last bit, too.
+TEST(FacetBond, shear_without_pressure_ends_at_the_cohesion) {
+  for (const double pulled : {-1e3, 0.0}) {
+    Bond bond;
+    bond.to(pulled, 8e6);
+    EXPECT_NEAR(bond.shear(), 8e6, 1e-5 * 8e6) << pulled;
+    bond.to(pulled, 25e6, 0, 100);
+    EXPECT_NEAR(bond.shear(), 11e6, 1e-4 * 11e6) << pulled;
+    const double slip = (25e6 - 11e6) / (0.25 * stiffness);
+    EXPECT_NEAR(bond.state.dissipated, 11e6 * slip * bond.geometry.area, 1e-3 * bond.state.dissipated)
+        << pulled;
+    EXPECT_NEAR(bond.balance(), bond.work, 1e-4 * bond.work) << pulled;
+  }
+}
+
 // (1 - D) of what is sound and D of friction share the slip of a bond that is pressed after it was damaged.
 TEST(FacetBond, what_is_damaged_rubs_once_it_is_closed) {
   Bond bond;
