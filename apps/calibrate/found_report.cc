@@ -50,20 +50,12 @@ Json json_of(const std::vector<ParameterFacts> &rows, const std::vector<std::str
   return all;
 }
 
-Json json_of(const SeedStatistics &scatter) {
-  return {{"mean", scatter.mean()},
-          {"deviation", scatter.deviation()},
-          {"low", scatter.least()},
-          {"high", scatter.largest()},
-          {"seeds", scatter.count()}};
-}
-
 Json json_of(const Goals &goals, const Measured &m) {
   Json all = Json::object();
   if (m.numbers.empty()) return all;
   for (std::size_t k = 0; k < goals.all().size(); ++k)
-    all[goals.all()[k].key] = json_of(m.numbers[k]);
-  all["youngs_modulus_platen_pa"] = json_of(m.platen_modulus);
+    all[goals.all()[k].key] = json_of(m.numbers[k], "seeds");
+  all["youngs_modulus_platen_pa"] = json_of(m.platen_modulus, "seeds");
   all["failed"] = m.failed;
   return all;
 }
@@ -75,11 +67,11 @@ Json json_of(const Goals &goals, std::size_t k, const Judged &judged) {
            {"target", goal.text},
            {"wanted", goal.curve ? 0 : goal.value},
            {"tolerance", goal.tolerance},
-           {"training", json_of(judged.training.numbers[k])},
+           {"training", json_of(judged.training.numbers[k], "seeds")},
            {"training_miss", goals.miss(k, judged.training)},
            {"met_in_training", goals.met(k, judged.training)}};
   if (!judged.verified()) return one;
-  one["verification"] = json_of(judged.unseen.numbers[k]);
+  one["verification"] = json_of(judged.unseen.numbers[k], "seeds");
   one["verification_miss"] = goals.miss(k, judged.unseen);
   one["met"] = goals.met(k, judged.unseen);
   return one;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "apps/output/file.h"
+#include "apps/output/seed_statistics.h"
 #include "dem/measure/acoustic_emission.h"
 
 namespace platen::apps {
@@ -44,6 +45,14 @@ Json json_of_b(const dem::BValue &value, const std::string &key) {
           {key + "_upper", std::isfinite(value.upper) ? Json(value.upper) : Json()},
           {key + "_above", static_cast<long>(value.above)},
           {key + "_reason", reason.empty() ? Json() : Json(reason)}};
+}
+
+Json json_of(const SeedStatistics &s, const char *counted) {
+  return {{"mean", s.mean()},
+          {"deviation", s.deviation()},
+          {"low", s.least()},
+          {"high", s.largest()},
+          {counted, s.count()}};
 }
 
 } // namespace platen::apps

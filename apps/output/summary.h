@@ -11,6 +11,7 @@ struct BValue;
 
 namespace platen::apps {
 
+class SeedStatistics;
 using Json = nlohmann::ordered_json; // keys stay in the order in which they were given
 
 // Writes aside and renames, so that an existing summary is complete. Numbers that are not finite become null,
@@ -36,5 +37,8 @@ std::string text_in(const Json &summary, const std::string &key);
 // that it is of (_limit, _upper: null where all from the limit on are), how many _events lie there and _above
 // it, and the _reason where there is no b.
 Json json_of_b(const dem::BValue &value, const std::string &key);
+
+// Mean, deviation, low and high, and under the name `counted` ("runs") of how many.
+Json json_of(const SeedStatistics &statistics, const char *counted);
 
 } // namespace platen::apps

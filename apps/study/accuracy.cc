@@ -34,7 +34,7 @@ double error(const RunOutcome &run, const RunOutcome &reference, Measure measure
 
 // As for other figures, and the root of their mean square.
 Json with_root(const SeedStatistics &s) {
-  Json of = json_of(s);
+  Json of = json_of(s, "runs");
   of.erase("runs");
   of["root_mean_square"] = s.root_mean_square();
   of["runs"] = s.count();

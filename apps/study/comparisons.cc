@@ -196,7 +196,7 @@ Json json_of(const StudyPlan &plan, const std::vector<Comparison> &comparisons) 
   Json all = Json::array();
   for (const Comparison &c : comparisons) {
     Json one{{"effect", word(c.effect)}, {"case", plan.cases[c.of].name}, {"over", plan.cases[c.over].name}};
-    one.update(json_of(c.ratio));
+    one.update(json_of(c.ratio, "runs"));
     one["laboratory"] = c.laboratory == nullptr ? Json() : Json(*c.laboratory);
     if (*c.verdict() != '\0') one["verdict"] = c.verdict();
     if (!c.reason.empty()) one["reason"] = c.reason;

@@ -112,14 +112,6 @@ std::vector<std::vector<double>> strengths_of(const Outcomes &outcomes) {
   return all;
 }
 
-Json json_of(const SeedStatistics &s) {
-  return {{"mean", s.mean()},
-          {"deviation", s.deviation()},
-          {"low", s.least()},
-          {"high", s.largest()},
-          {"runs", s.count()}};
-}
-
 std::string aligned(const std::vector<std::vector<std::string>> &rows) {
   std::vector<std::size_t> widths(rows.front().size(), 0);
   for (const auto &row : rows)
@@ -209,7 +201,7 @@ Json StudyTables::cases() const {
         return outcome.done && !has_peaked(outcome.summary);
       });
     for (const std::string &key : figures)
-      one[key] = json_of(statistics_of(runs, key));
+      one[key] = json_of(statistics_of(runs, key), "runs");
     std::map<std::string, int> patterns; // runs that failed so
     for (const RunOutcome &outcome : runs)
       if (const std::string how = text_in(outcome.summary, pattern); !how.empty()) ++patterns[how];

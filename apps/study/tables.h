@@ -23,9 +23,6 @@ using Outcomes = std::vector<std::vector<RunOutcome>>;
 // Pa; NaN: failed, or without a peak.
 std::vector<std::vector<double>> strengths_of(const Outcomes &outcomes);
 
-// {"mean", "deviation", "low", "high", "runs"}
-Json json_of(const SeedStatistics &statistics);
-
 // Rows of words for the screen, columns as wide as what stands in them.
 std::string aligned(const std::vector<std::vector<std::string>> &rows);
 
