@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "coupling/static_press.h"
 #include "dem/measure/gauge.h"
@@ -159,11 +160,23 @@ TEST(sleeve_cell, a_soft_sleeve_is_as_good_as_a_pressure_on_the_skin) {
   EXPECT_LT(std::abs(oil.sleeve_deviator()), 0.01 * a.axial);
 }
 
+TEST(sleeve_cell, the_energy_balance_of_sleeve_cell_and_specimen_closes) {
+  for (const bool bonded : {true, false}) {
+    PlatenTest problem(packed_cylinder(), in_cell(10e6, true, bonded));
+    run(problem);
+    const dem::EnergyLedger e = problem.energy();
+    EXPECT_GT(problem.sleeve()->solid().pressure_work(), 0.2 * e.boundary);
+    EXPECT_GT(e.bodies, 0);
+    EXPECT_LT(std::abs(e.residual()), 2e-3 * e.boundary) << bonded;
+  }
+}
+
 // Pressure and deviator go up a straight line; with -1/3 the mean stress stays.
 TEST(sleeve_cell, a_stress_path_is_followed_and_the_energy_balance_closes) {
-  for (const bool sleeve : {false, true})
+  for (const auto &[sleeve, bonded] : {std::pair{false, false}, {true, false}, {true, true}})
     for (const double path : {-1.0 / 3, 0.5}) {
-      PlatenTestSettings settings = in_cell(10e6, sleeve, path > 0);
+      if (bonded && path < 0) continue;
+      PlatenTestSettings settings = in_cell(10e6, sleeve, bonded);
       settings.loading.cell->path = path;
       PlatenTest problem(packed_cylinder(), settings);
       while (!problem.axial_stage())

@@ -67,6 +67,21 @@ void expect_sound(const Quad &q, const ClosestPoint &c) {
   ASSERT_EQ(c.distance_squared, norm_squared(c.point));
 }
 
+TEST(closest_point, projection_onto_a_parallelogram_is_exact_to_round_off) {
+  Draw draw(1);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Vector3 a = draw.vector(1), b = draw.vector(1), n = cross(a, b) / norm(cross(a, b));
+    if (norm(cross(a, b)) < 0.05) continue;
+    const double u = draw.number(0, 1), v = draw.number(0, 1), h = draw.number(-2, 2);
+    const Vector3 origin = -(u * a + v * b + h * n);
+    const ClosestPoint c = closest_point({origin, origin + a, origin + a + b, origin + b});
+    EXPECT_EQ(c.feature, Feature::face);
+    EXPECT_LT(norm(c.point - (-h * n)), 1e-13); // solve with a condition number of up to 1e3
+    EXPECT_NEAR(c.u, u, 1e-12);
+    EXPECT_NEAR(c.v, v, 1e-12);
+  }
+}
+
 // A face in a coordinate plane returns that coordinate with all its bits, wherever the closest point lies.
 TEST(closest_point, a_level_face_gives_its_height_to_the_last_bit) {
   Draw draw(2);
@@ -187,6 +202,16 @@ INSTANTIATE_TEST_SUITE_P(quads, ClosestPointOfAnyQuad,
                                          QuadKind{"line", line}, QuadKind{"folded", folded},
                                          QuadKind{"point", point}),
                          [](const auto &quad) { return quad.param.name; });
+
+TEST(closest_point, weights_add_up_to_one_exactly) {
+  Draw draw(3);
+  for (int trial = 0; trial < 100000; ++trial) {
+    const double u = std::pow(draw.number(0, 1), draw.number(0, 20)),
+                 v = std::pow(draw.number(0, 1), draw.number(0, 20));
+    const auto w = bilinear_weights(u, v);
+    ASSERT_EQ(((w[0] + w[1]) + w[2]) + w[3], 1.0) << u << " " << v;
+  }
+}
 
 TEST(closest_point, the_normal_of_a_quad_without_area_is_zero_and_never_not_a_number) {
   Draw draw(4);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "sphere_scene.h"
 
@@ -34,6 +35,20 @@ double bounce_error(const Vector3 &velocity, const Vector3 &spin, const SurfaceC
          before;
 }
 
+TEST(contact_energy, a_surface_that_nothing_has_touched_holds_no_energy) {
+  const SphereScene scene(plate(0.01, 3), {{0, 0, 2 * sphere_radius}}, frictional(0.3, 0.3));
+  EXPECT_EQ(scene.layer.elastic_energy(), 0);
+  EXPECT_EQ(scene.layer.friction_work, 0);
+  EXPECT_EQ(scene.layer.damping_work, 0);
+}
+
+TEST(contact_energy, a_sphere_bounces_back_with_its_energy) {
+  const double coarse = bounce_error({0, 0, -1}, {}, frictional(0.3, 0.3), 0.02);
+  const double fine = bounce_error({0, 0, -1}, {}, frictional(0.3, 0.3), 0.002);
+  EXPECT_LT(coarse, 5e-2);
+  EXPECT_LT(fine, 1e-3);
+}
+
 // Sliding, sticking and spinning up at an angle, without and with dashpots.
 TEST(contact_energy, an_oblique_bounce_loses_what_friction_and_dashpots_took) {
   for (const double damping : {0.0, 0.2})
@@ -60,6 +75,26 @@ TEST(contact_energy, restitution_is_that_of_a_spring_and_a_dashpot_that_cannot_p
   }
 }
 
+// A sphere that cannot turn slides to rest: kinetic energy goes to friction and the little that the spring
+// keeps.
+TEST(contact_energy, a_sliding_sphere_stops_when_friction_has_taken_its_energy) {
+  SphereScene scene(plate(0.01, 40), {{-0.008, 0.0003, 0.9999 * sphere_radius}}, frictional(0.4, 0.4), false);
+  const double weight = stiffness * 1e-4 * sphere_radius;
+  scene.gravity = {0, 0, -weight / scene.particles.mass[0]};
+  scene.particles.velocity[0] = {1.2, 0.2, 0};
+  const double before = scene.kinetic_energy(), dt = step_of(scene, 0.02);
+  scene.compute_forces(0);
+  const double pressed = scene.layer.elastic_energy(), start = scene.particles.position[0].x;
+  for (int n = 0; n < 4000; ++n)
+    scene.step(dt);
+  const double left = scene.kinetic_energy() + scene.layer.elastic_energy() - pressed;
+  EXPECT_NEAR(scene.layer.friction_work + left, before, 1e-3 * before);
+  EXPECT_LT(left, 0.02 * before);
+  // The way to rest is v^2 / (2 mu g) along the velocity, give or take the stretch of the spring (0.03 %).
+  const double way = (1.44 + 0.04) / (2 * 0.4 * weight / scene.particles.mass[0]);
+  EXPECT_NEAR(scene.particles.position[0].x - start, way * 1.2 / std::sqrt(1.48), 1e-3 * way);
+}
+
 // Backspin, slide, then rolling: a billiard ball on no-slip terms ends at v = 5/7 v0 - 2/7 r w0.
 TEST(contact_energy, a_sliding_ball_ends_rolling_at_five_sevenths_of_its_speed) {
   SphereScene scene(plate(0.01, 40), {{-0.009, 0.0003, 0.9999 * sphere_radius}}, frictional(0.3, 0.3));
@@ -80,6 +115,44 @@ TEST(contact_energy, a_sliding_ball_ends_rolling_at_five_sevenths_of_its_speed) 
   EXPECT_NEAR(turn * r, 5.0 / 7 * 0.4, 1e-3 * 0.4);
   EXPECT_NEAR(scene.kinetic_energy() + scene.layer.elastic_energy() - pressed + scene.layer.friction_work,
               before, 1e-3 * before);
+}
+
+// With a plate that moves the work comes in through it: the mean of the loads before and after each step,
+// times the way of the step.
+TEST(contact_energy, a_moving_plate_puts_in_what_the_energy_balance_shows) {
+  SurfaceContact contact = frictional(0.5, 0.3);
+  contact.damping = 0.1;
+  contact.seat_modulus = 2e9;
+  SphereScene scene(
+      plate(0.01, 12),
+      {{-0.004, 0.0003, sphere_radius}, {0.001, -0.002, sphere_radius}, {0.004, 0.003, 1.02 * sphere_radius}},
+      contact);
+  scene.layer.seat_within(scene.particles, scene.body, 0.01 * sphere_radius);
+  scene.gravity = {200, 0, -5000};
+  const double dt = step_of(scene, 0.0005);
+  double work = 0, size = 0, potential = 0;
+  const Vector3 g = scene.gravity;
+  std::vector<Vector3> start(3);
+  for (std::size_t i = 0; i < 3; ++i)
+    start[i] = scene.particles.position[i];
+  scene.compute_forces(0);
+  Vector3 last = scene.load();
+  for (int n = 0; n < 100000; ++n) {
+    scene.body.set_velocity({0.02 * std::sin(2e-4 * n), 0.01, 0.03 * std::cos(3e-4 * n)});
+    const Vector3 u = scene.body.velocity();
+    scene.step(dt);
+    const double in = -dt * dot(0.5 * (last + scene.load()), u);
+    work += in;
+    size += std::abs(in);
+    last = scene.load();
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+    potential -= scene.particles.mass[i] * dot(g, scene.particles.position[i] - start[i]);
+  const double found = scene.kinetic_energy() + scene.layer.elastic_energy() + potential +
+                       scene.layer.friction_work + scene.layer.damping_work;
+  EXPECT_GT(scene.layer.friction_work, 0.0);
+  EXPECT_GT(scene.layer.damping_work, 0.0);
+  EXPECT_NEAR(found, work, 5e-3 * size);
 }
 
 } // namespace

@@ -208,6 +208,23 @@ TEST(contact_history, threads_do_not_show) {
   expect_same(*one, *four);
 }
 
+// Sphere by sphere the friction bound, in the heap.
+TEST(contact_history, no_contact_of_a_heap_passes_its_friction_limit) {
+  const auto scene = heap(0.3 * sphere_radius);
+  int slides = 0, sticks = 0;
+  for (int n = 0; n < 3000; ++n) {
+    scene->step(dt);
+    for (const ActiveContact &c : scene->layer.contacts()) {
+      ASSERT_GE(c.normal_force, 0);
+      ASSERT_LE(norm(c.shear), (c.sliding ? 0.3 : 0.5) * c.normal_force * (1 + 1e-14));
+      ASSERT_LE(std::abs(dot(c.shear, c.normal)), 1e-14 * (c.normal_force + norm(c.shear)));
+      (c.sliding ? slides : sticks) += 1;
+    }
+  }
+  EXPECT_GT(slides, 1000);
+  EXPECT_GT(sticks, 1000);
+}
+
 // A seat: the moment is 2 G_b pi R^3 / 8 times the angle, up to half of N R; the body feels its opposite.
 TEST(contact_history, a_seat_rocks_on_its_spring_up_to_its_limit) {
   SurfaceContact contact = frictional(infinite, infinite);

@@ -98,6 +98,31 @@ TEST_P(DraggedSphere, has_no_ripple_without_friction) {
 
 INSTANTIATE_TEST_SUITE_P(quads_along_a_side, DraggedSphere, testing::Values(1, 10, 100));
 
+// The same on a plate turned into a skew position: only round-off of turned coordinates (1e-17 m against
+// overlaps of 5e-6 m) may show.
+TEST(contact_plate, a_skew_plate_feels_like_a_level_one) {
+  fem::RigidBody body = plate(0.01, 10);
+  body.set_velocity({}, {0.3, -0.5, 0.2});
+  body.drift(1);
+  body.set_velocity({});
+  Vector3 up;
+  for (std::size_t f = 0; f < body.surface().faces.size(); ++f) {
+    const Vector3 a = fem::face_area_vector(body.surface(), f);
+    if (body.surface().face_tags[f] == fem::high_end_tag) up = a / norm(a);
+  }
+  const Vector3 top = body.centre() + 0.005 * up;
+  const Vector3 along = cross(up, Vector3{1, 0, 0}) / norm(cross(up, Vector3{1, 0, 0}));
+  SphereScene scene(std::move(body), {top - 0.006 * along + 0.995 * sphere_radius * up},
+                    frictional(0.4, 0.4));
+  scene.particles.velocity[0] = 1.2 * along;
+  const double normal = stiffness * 0.005 * sphere_radius;
+  for (int n = 0; n < 1000; ++n) {
+    scene.carry(1e-5);
+    const double sliding = std::min(0.4 * normal, 0.8 * stiffness * 1.2 * 1e-5 * (n + 1));
+    ASSERT_LT(norm(scene.particles.force[0] - (normal * up - sliding * along)), 1e-11 * normal);
+  }
+}
+
 // The stiffest spring on a face is that over its softest corner, whichever that is.
 TEST(contact_plate, the_softest_corner_of_a_face_bounds_its_springs) {
   const auto spring = [](int softest) {
@@ -115,6 +140,25 @@ TEST(contact_plate, the_softest_corner_of_a_face_bounds_its_springs) {
   EXPECT_GT(spring(0), 1.1 * nowhere);
   for (int corner = 1; corner < 4; ++corner)
     EXPECT_EQ(spring(corner), spring(0)) << corner;
+}
+
+TEST(contact_plate, sliding_starts_at_the_static_limit_and_goes_on_at_the_dynamic_one) {
+  SphereScene scene(plate(0.01, 10), {{-0.005, 0.001, 0.99 * sphere_radius}}, frictional(0.57, 0.3));
+  const double normal = stiffness * 0.01 * sphere_radius, dt = 1e-6;
+  scene.particles.velocity[0] = {0.01, 0, 0};
+  double largest = 0;
+  for (int n = 0; n < 2000; ++n) {
+    scene.carry(dt);
+    const double t = norm(scene.layer.contacts()[0].shear);
+    largest = std::max(largest, t);
+    if (scene.layer.contacts()[0].sliding) {
+      ASSERT_NEAR(t, 0.3 * normal, 1e-12 * normal);
+    }
+  }
+  // One step adds k_t v dt to the force: so close below the limit was the last that held.
+  EXPECT_LE(largest, 0.57 * normal);
+  EXPECT_GT(largest, 0.57 * normal - 0.8 * stiffness * 0.01 * dt * 1.001);
+  EXPECT_TRUE(scene.layer.contacts()[0].sliding);
 }
 
 TEST(contact_plate, a_seat_has_its_own_zero) {
@@ -170,6 +214,23 @@ TEST(contact_plate, glue_holds_in_tension_and_shear) {
   EXPECT_EQ(scene.layer.friction_work, 0.0);
   // What was put in by hand is all stored.
   EXPECT_NEAR(scene.layer.elastic_energy(), 0.5 * stiffness * (1e-8 + 0.8 * 4e-10), 1e-9 * stiffness * 1e-8);
+}
+
+TEST(contact_plate, a_sphere_on_no_slip_ground_rolls) {
+  SphereScene scene(plate(0.01, 20), {{-0.006, 0, 0.999 * sphere_radius}}, frictional(infinite, infinite));
+  // Pulled by a force at its centre it accelerates with F / (m + I/r^2); the spring's vibration averages out.
+  const double dt = 2e-7, pull = 0.02, r = 0.999 * sphere_radius;
+  scene.gravity = {pull / scene.particles.mass[0], 0,
+                   -stiffness * 1e-3 * sphere_radius / scene.particles.mass[0]};
+  scene.compute_forces(0);
+  const int steps = 20000;
+  for (int n = 0; n < steps; ++n)
+    scene.step(dt);
+  const double expected =
+      pull / (scene.particles.mass[0] + (*scene.particles.inertia)[0] / (r * r)) * steps * dt;
+  EXPECT_NEAR(scene.particles.velocity[0].x, expected, 2e-3 * expected);
+  EXPECT_NEAR((*scene.particles.angular_velocity)[0].y * r, expected, 2e-3 * expected);
+  EXPECT_EQ(scene.layer.friction_work, 0.0);
 }
 
 // Over the rim of the plate: the force changes by no more than k times the way of a step, and half the step

@@ -100,6 +100,26 @@ TEST(elastic_loadings, soft_glued_platens_are_in_series_with_the_specimen) {
   }
 }
 
+TEST(elastic_loadings, all_sides_press_alike_between_stiff_platens_as_between_rigid_ones) {
+  for (const bool sleeve : {false, true}) {
+    PlatenTestSettings rigid = hydrostatic(sleeve);
+    rigid.loading.cell->ramp = 0; // long enough for the servo
+    rigid.time_step.fixed_step = 5e-8;
+    PlatenTest reference(cylinder(), rigid);
+    advance_to_end(reference, 40000);
+    EXPECT_NEAR(reference.axial_stress(), 5e6, 5e4) << sleeve;
+    for (const ElasticMotion motion : both_motions) {
+      const bool still = motion == ElasticMotion::quasi_static;
+      PlatenTest test(cylinder(), elastic(rigid, motion, still ? 100 * steel : steel));
+      advance_to_end(test, 40000);
+      EXPECT_NEAR(test.axial_stress(), 5e6, 5e4) << sleeve << still;
+      EXPECT_NEAR(test.closure_strain() / reference.closure_strain(), 1, still ? 0.01 : 0.03)
+          << sleeve << still;
+      EXPECT_LT(residual(test), 5e-3) << sleeve << still;
+    }
+  }
+}
+
 // A bar on steel strips and one on strips with sheets of 2 GPa: these take a part of the deflection of the
 // clamps.
 TEST(elastic_loadings, sheets_on_strips_are_in_series_with_the_bar) {
@@ -182,7 +202,11 @@ TEST(elastic_loadings, a_servo_holds_its_stress_whatever_it_acts_through) {
     if (held.settings.platens.elastic) {
       EXPECT_GT(clamp_closure(test), test.closure_strain() * test.shape().height) << held.what;
     }
-    EXPECT_EQ(test.top().body().rotation().w != 1, held.settings.platens.spherical_seat) << held.what;
+    const Quaternion &turn = test.top().body().rotation();
+    EXPECT_EQ(turn.w != 1, held.settings.platens.spherical_seat) << held.what;
+    if (held.settings.platens.spherical_seat) {
+      EXPECT_GT(2 * std::hypot(turn.x, turn.y), 1e-6) << held.what;
+    }
   }
 }
 

@@ -1,4 +1,5 @@
-// Platens that yield: sheets on them, layers that they are made of, meshes of one's own.
+// Platens that yield: loads go through them, sheets on them, layers that they are made of, meshes of one's
+// own.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,12 +22,100 @@ PlatenTestSettings between(ElasticMotion motion, double young) {
   return s;
 }
 
+// With inertia or without, after some wave transits: what is left is the waves.
+TEST(elastic_platens, explicit_and_quasi_static_ones_bear_alike) {
+  double stress[2], closure[2];
+  for (const bool still : {false, true}) {
+    PlatenTestSettings settings =
+        between(still ? ElasticMotion::quasi_static : ElasticMotion::explicit_steps, 20e9);
+    settings.time_step.fixed_step = 4e-8;
+    PlatenTest problem(cylinder(), settings);
+    advance_to(problem, 5000);
+    stress[still] = problem.stress_top();
+    closure[still] = problem.closure_strain();
+    EXPECT_LT(problem.closure_strain() * problem.shape().height, 0.999 * clamp_closure(problem));
+    EXPECT_NEAR(problem.top().body().energy_balance().strain, problem.bottom().body().energy_balance().strain,
+                0.5 * problem.top().body().energy_balance().strain);
+    // Contacts, friction, bonds and platens in one energy balance.
+    const dem::EnergyLedger energy = problem.energy();
+    EXPECT_LT(std::abs(energy.residual() + energy.unbalanced), 1e-3 * energy.boundary) << still;
+    EXPECT_GT(energy.bodies, 0.01 * energy.boundary);
+  }
+  EXPECT_NEAR(stress[1] / stress[0], 1, 0.01);
+  EXPECT_NEAR(closure[1] / closure[0], 1, 0.01);
+}
+
+// 8 x 8 spheres, one in the middle of each element of the face: a uniform pressure. What the machine bears is
+// the loads' sum, and so is the mean stress in any cut.
+TEST(elastic_platens, a_layer_of_spheres_transmits_the_load) {
+  constexpr int across = 8;
+  constexpr double r = 1e-3;
+  dem::Specimen layer;
+  layer.shape = dem::box(across * 2 * r, across * 2 * r, 2 * r);
+  for (int i = 0; i < across * across; ++i) {
+    layer.centre.push_back({(2 * (i % across) - across + 1) * r, (2 * (i / across) - across + 1) * r, r});
+    layer.radius.push_back(r);
+  }
+  PlatenTestSettings settings = between(ElasticMotion::quasi_static, steel);
+  settings.model.bond.reset();
+  settings.ends = Ends::as_packed;
+  settings.platens.overhang = 1;
+  settings.platens.thickness = 8e-3;
+  settings.platens.elements_across = across;
+  settings.loading.ramp = 2e-5;
+  PlatenTest problem(layer, settings);
+  advance_to(problem, 1000);
+  for (fem::Body *body : {&problem.top().body(), &problem.bottom().body()}) {
+    auto &solid = static_cast<fem::ElasticSolid &>(*body);
+    const Vector3 load = solid.total_force();
+    ASSERT_GT(std::abs(load[2]), 10);
+    solid.aim(solid.contact_loads(), 0); // the shape under the loads of now
+    const std::vector<Vector3> u = solid.deformation();
+    std::vector<Vector3> force;
+    fem::multiply(solid.model().stiffness, u, force);
+    Vector3 reaction{};
+    for (const int node : solid.clamped_nodes())
+      reaction = reaction + force[static_cast<std::size_t>(node)];
+    EXPECT_LT(norm(reaction + load), 1e-12 * norm(load)) << norm(reaction + load);
+    double mean = 0;
+    int cells = 0;
+    const std::vector<fem::Stress> stress = cell_stress(solid.model(), solid.deformation());
+    const double middle =
+        (body == &problem.top().body() ? 2 * r : 0) + (body == &problem.top().body() ? 4e-3 : -4e-3);
+    for (std::size_t c = 0; c < stress.size(); ++c) {
+      double z = 0;
+      for (std::size_t k = 0; k < 8; ++k)
+        z += 0.125 * solid.model().nodes[static_cast<std::size_t>(solid.model().cell_nodes[8 * c + k])][2];
+      if (std::abs(z - middle) > 1.5e-3) continue;
+      mean += stress[c][2], ++cells;
+    }
+    ASSERT_GT(cells, 0);
+    const double pressure = std::abs(load[2]) / (across * across * 4 * r * r);
+    EXPECT_NEAR(-mean / cells, pressure, 0.01 * pressure);
+  }
+}
+
 PlatenTestSettings on_pads(ElasticMotion motion) {
   PlatenTestSettings settings = between(motion, steel);
   settings.platens.overhang = 1;
   settings.platens.elastic->pad_thickness = 1e-3;
   settings.platens.elastic->pad = {1200, 1e9, 0.3};
   return settings;
+}
+
+// A sheet between platen and specimen is in series: it takes p t (1 + nu)(1 - 2 nu) / (E (1 - nu)) of the
+// closure where it cannot spread sideways, more where it can, and p t / E at most.
+TEST(elastic_platens, a_pad_yields_by_its_thickness_over_its_modulus) {
+  PlatenTest problem(cylinder(), on_pads(ElasticMotion::explicit_steps));
+  advance_to(problem, 5000);
+  const double pressure = 0.5 * (problem.stress_top() + problem.stress_bottom());
+  ASSERT_GT(pressure, 1e5);
+  const double yielded = 0.5 * (clamp_closure(problem) - problem.closure_strain() * problem.shape().height);
+  const double most = pressure * 1e-3 / 1e9, least = most * (1 + 0.3) * (1 - 2 * 0.3) / (1 - 0.3);
+  EXPECT_GT(yielded, least);
+  EXPECT_LT(yielded, most);
+  // Damped vibrations are .1 % of so small a work.
+  EXPECT_LT(residual(problem), 2e-3);
 }
 
 // Softer than its contacts, and still at rest from solve to solve.
@@ -243,6 +332,7 @@ TEST(platen_layers, a_given_mesh_of_the_same_plate_presses_alike) {
     EXPECT_NEAR(other.closure_strain() / one.closure_strain(), 1, 1e-4);
     EXPECT_NEAR(one.top().body().mass(), other.top().body().mass(), 1e-9 * one.top().body().mass());
     if (!has_layers) continue;
+    EXPECT_EQ(one.top().body().mass(), other.top().body().mass());
     given.platens.top.layers.pop_back();
     expect_refused(cylinder(), given, "platens.top.grid",
                    "has 3 physical volumes: there are 2 layers in `platens.top.layers`");

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "dem/laws/friction_law.h"
 #include "dem/laws/rotating_plane.h"
@@ -17,6 +19,25 @@ namespace {
 
 constexpr double k = 2e5; // N/m
 constexpr double infinite = std::numeric_limits<double>::infinity();
+
+TEST(coulomb_friction, the_spring_holds_up_to_the_static_limit_and_then_slides_at_the_dynamic_one) {
+  const CoulombFriction friction{{0.5, 0.3}};
+  CoulombFriction::State state;
+  const double normal = 10, step = 1e-7;
+  double path = 0;
+  while (path * k + step * k <= 0.5 * normal) {
+    path += step;
+    const auto r = friction(state, {step, 0, 0}, normal, k);
+    ASSERT_NEAR(r.force.x, k * path, 1e-12 * normal);
+    ASSERT_EQ(r.dissipated, 0.0);
+    ASSERT_EQ(state.sliding, 0);
+  }
+  for (int n = 0; n < 100; ++n) {
+    const auto r = friction(state, {step, 0, 0}, normal, k);
+    ASSERT_NEAR(r.force.x, 0.3 * normal, 1e-15 * normal);
+    ASSERT_EQ(state.sliding, 1);
+  }
+}
 
 // Back off until the trial is below the dynamic limit: it sticks, and the static limit holds again.
 TEST(coulomb_friction, it_sticks_again_below_the_dynamic_limit_and_then_holds_to_the_static_one) {
@@ -66,6 +87,14 @@ TEST(coulomb_friction, loss_of_the_normal_force_releases_the_spring) {
   const auto r = friction(state, {}, 0, k);
   EXPECT_EQ(norm(r.force) + norm(state.spring) + state.sliding, 0);
   EXPECT_NEAR(r.dissipated, 5.0 / (2 * k), 1e-18); // all that was stored
+}
+
+TEST(coulomb_friction, without_a_limit_it_never_slides) {
+  const CoulombFriction friction{{infinite, infinite}};
+  CoulombFriction::State state;
+  const auto r = friction(state, {1, 0, 0}, 1e-9, k);
+  EXPECT_EQ(r.force.x, k);
+  EXPECT_EQ(state.sliding, 0);
 }
 
 // A dynamic coefficient above the static one must not push: the force never exceeds the trial.
@@ -135,6 +164,26 @@ TEST(rotating_plane, a_carried_vector_keeps_its_length_and_its_angle_to_the_way_
   EXPECT_LT(norm(carried - Vector3{3 * std::cos(1.0), 4, -3 * std::sin(1.0)}), 1e-15);
   EXPECT_LT(std::abs(dot(carried, to)), 1e-15);
   EXPECT_NEAR(norm(carried), 5, 1e-15);
+}
+
+// About the axis that is square to both normals, by the angle between them; some normals have but one
+// component that differs.
+TEST(rotating_plane, a_vector_turns_about_the_axis_of_both_normals) {
+  const Vector3 vector = {3, 4, -5};
+  std::vector<std::array<Vector3, 2>> normals{{{{2.0 / 7, 3.0 / 7, 6.0 / 7}, {-0.48, 0.6, 0.64}}}};
+  for (const Vector3 &from : {Vector3{1, 2, 2} / 3, Vector3{2, 1, 2} / 3, Vector3{2, 2, 1} / 3})
+    for (const int axis : {0, 1, 2}) {
+      Vector3 mirrored = from;
+      mirrored[axis] = -mirrored[axis];
+      normals.push_back({mirrored, from});
+    }
+  for (const auto &[from, to] : normals) {
+    const Vector3 flat = vector - dot(vector, from) * from, axis = cross(from, to) / norm(cross(from, to));
+    const double angle = std::atan2(norm(cross(from, to)), dot(from, to));
+    const Vector3 turned = std::cos(angle) * flat + std::sin(angle) * cross(axis, flat) +
+                           ((1 - std::cos(angle)) * dot(axis, flat)) * axis;
+    EXPECT_LT(norm(carry_with_plane(vector, from, to) - turned), 1e-14) << from.x << ' ' << from.y;
+  }
 }
 
 TEST(rotating_plane, opposite_normals_keep_the_vector) {
@@ -231,6 +280,21 @@ TEST(slip_weakening_friction, it_dissipates_the_integral_of_its_law) {
   EXPECT_LT(std::abs(error[1]), 0.4 * std::abs(error[0])); // a quarter but for the step in which it begins
 }
 
+TEST(slip_weakening_friction, a_long_slip_length_is_the_static_law_and_a_short_one_the_dynamic) {
+  const SlipWeakeningFriction endless{{mu_s, mu_d, 1e6}}, at_once{{mu_s, mu_d, 1e-18}};
+  CoulombFriction::State slow, quick, held;
+  const CoulombFriction constant{{mu_s, mu_s}};
+  for (int n = 0; n < 1000; ++n) {
+    const Vector3 stretch = {3e-7 * std::cos(0.01 * n), 1e-7, 0};
+    const auto expected = constant(held, stretch, normal, k);
+    ASSERT_LT(norm(endless(slow, stretch, normal, k).force - expected.force), 1e-9 * normal);
+    at_once(quick, stretch, normal, k);
+    ASSERT_LE(norm(quick.spring), (quick.slip > 0 ? mu_d : mu_s) * normal * (1 + 1e-9));
+  }
+  EXPECT_GT(quick.slip, 0);
+  EXPECT_NEAR(norm(quick.spring), mu_d * normal, 1e-9 * normal);
+}
+
 // (mu_s - mu_d) N / s_0 = 300 k: no equilibrium near the old one; the one that is found lies on the curve.
 TEST(slip_weakening_friction, steeper_than_its_spring_it_jumps_to_the_curve) {
   const SlipWeakeningFriction steep{{mu_s, mu_d, (mu_s - mu_d) * normal / (300 * k)}};
@@ -268,6 +332,19 @@ TEST(velocity_weakening_friction, drawn_at_a_speed_it_slides_at_its_coefficient)
     EXPECT_NEAR(norm(state.spring), expected, round_off * normal) << speed;
     EXPECT_NEAR(state.slip, 1000 * step - expected / k, 1e-12 * state.slip) << speed;
     EXPECT_NEAR(lost, expected * state.slip, expected * step) << speed; // the step in which it begins
+  }
+}
+
+TEST(velocity_weakening_friction, a_high_slip_velocity_is_the_static_law_and_a_low_one_the_dynamic) {
+  const VelocityWeakeningFriction high{{mu_s, mu_d, 1e9}}, low{{mu_s, mu_d, 1e-9}};
+  const CoulombFriction fixed{{mu_s, mu_s}}, loose{{mu_d, mu_d}};
+  CoulombFriction::State a, b, c, d;
+  for (int n = 0; n < 1000; ++n) {
+    const Vector3 stretch = {3e-7 * std::cos(0.01 * n), 1e-7, 0};
+    // exp(-v / v_0) falls short of 1 by 3e-10.
+    ASSERT_LT(norm(high(a, stretch, normal, k, 1e-6).force - fixed(b, stretch, normal, k).force),
+              1e-9 * normal);
+    ASSERT_EQ(norm(low(c, stretch, normal, k, 1e-6).force - loose(d, stretch, normal, k).force), 0);
   }
 }
 

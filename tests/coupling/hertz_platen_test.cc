@@ -44,6 +44,18 @@ TEST(hertz_platen, both_sides_give_way_as_their_moduli_say) {
   EXPECT_NEAR(mixed.tangential_ratio, 8 / ((2 - nu) / g1 + 1.7 / g2) / (2 * mixed.modulus), 1e-12);
 }
 
+// N = 4/3 E* sqrt(R) d^1.5; its slope; its integral.
+TEST(hertz_platen, the_force_is_the_power_of_three_halves) {
+  const dem::HertzOnPlane law = dem::HertzOnPlane::between(glass, {});
+  const double d = 1e-3 * sphere_radius, force = 4.0 / 3 * law.modulus * std::sqrt(sphere_radius * d) * d;
+  const dem::HertzOnPlane::Response r = law(d, sphere_radius);
+  EXPECT_NEAR(r.force, force, 1e-14 * force);
+  EXPECT_NEAR(r.stiffness, 2 * law.modulus * std::sqrt(sphere_radius * d), 1e-12 * r.stiffness);
+  EXPECT_NEAR(r.energy, 0.4 * force * d, 1e-14 * force * d);
+  EXPECT_NEAR(law(2 * d, sphere_radius).force, std::pow(2, 1.5) * force, 1e-12 * force);
+  EXPECT_NEAR(law(d, 4 * sphere_radius).force, 2 * force, 1e-12 * force);
+}
+
 // The mesh gives c N, so that both together are the law wherever that is possible; force, slope and energy go
 // on without a jump where it ends to be.
 TEST(hertz_platen, the_indentation_of_a_mesh_is_taken_out_of_the_law) {

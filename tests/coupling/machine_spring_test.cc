@@ -206,6 +206,50 @@ TEST(machine_platens, are_in_series_with_the_machine) {
   EXPECT_NEAR(without.top().load() / without.bottom().closure() / contact, 1, 1e-3); // half of the closure
 }
 
+// A column that is pulled until a bond breaks: what the spring holds becomes motion of the mass, the more
+// the softer the machine.
+TEST(machine_platens, a_soft_machine_jumps_with_what_it_holds_when_the_specimen_breaks) {
+  dem::Specimen column = sphere();
+  column.shape = dem::box(2e-3, 2e-3, 6e-3);
+  column.centre = {{0, 0, 1e-3}, {0, 0, 3e-3}, {0, 0, 5e-3}}, column.radius.assign(3, 1e-3);
+  for (const PlatenKind &kind : {yielding, followed}) {
+    double motion[2];
+    for (const bool stiff : {false, true}) {
+      const double machine = stiff ? 1e6 : 1e5;
+      PlatenTestSettings settings = with(one_sphere(machine), kind);
+      settings.model.bond_layout.modulus = 36e9;
+      settings.model.bond_layout.gap.value = 0.05;
+      settings.model.bond = dem::ParallelBond::Parameters{0.4, 2e6, 20e6, 0.785, 0.3};
+      settings.platens.glued = true;
+      settings.platens.machine.mass = 5e-3;
+      settings.platens.machine.damping = 0;
+      settings.loading.tension = true;
+      settings.loading.ramp = 1e-3;
+      settings.loading.rate = stiff ? 2e-3 : 2e-2;
+      PlatenTest test(column, settings);
+      double held = 0, peak = 0;
+      motion[stiff] = 0;
+      while (test.model.broken_tension == 0 && test.time() < 0.1) {
+        peak = -test.top().load(), held = test.machine()->elastic_energy();
+        advance_to(test, test.steps() + 10);
+      }
+      ASSERT_GT(test.model.broken_tension, 0);
+      const double broken = test.time();
+      while (test.time() < broken + 2 * std::sqrt(5e-3 / machine)) {
+        advance_to(test, test.steps() + 10);
+        motion[stiff] = std::max(motion[stiff], test.machine()->kinetic_energy());
+      }
+      EXPECT_NEAR(held * 2 * machine / (peak * peak), 1, 0.05) << kind.name << machine;
+      // Seen from the crosshead.
+      const double with_it = std::sqrt(0.5 * 5e-3) * 0.5 * settings.loading.rate;
+      EXPECT_NEAR(std::sqrt(motion[stiff] / held) - with_it / std::sqrt(held), 1, 0.01)
+          << kind.name << machine;
+      EXPECT_LT(residual(test), 1e-3) << kind.name << machine;
+    }
+    EXPECT_NEAR(motion[0] / motion[1], 10, 1) << kind.name;
+  }
+}
+
 // A spring that is stiff against the light nodes of a clamp, or against a rigid platen.
 TEST(machine_platens, the_time_step_counts_the_spring) {
   for (const PlatenKind &kind : all_kinds) {

@@ -13,6 +13,25 @@ namespace {
 
 using namespace seen;
 
+TEST(stress, is_led_to_its_value_and_held_for_its_time) {
+  for (const bool by_strain : {false, true}) {
+    Seen seen;
+    Tasks tasks;
+    tasks.push_back(stress_on_top(5e6, 1e-3));
+    StageEnd::Parameters end;
+    end.any = {until(Until::Reached::time, 3e-3), until(Until::Reached::strain, 1e-2)};
+    Program program(seen, list_of(stage_of("stress", std::move(tasks), end)));
+    seen.now = by_strain ? 1e-4 : 2.9999e-3;
+    EXPECT_LT(ask(program)[1].velocity[2], 0); // presses
+    EXPECT_EQ(ask(program)[0].velocity[2], 0);
+    program.update();
+    EXPECT_FALSE(program.finished());
+    (by_strain ? seen.closure = 1e-2 : seen.now = 3e-3);
+    program.update();
+    EXPECT_TRUE(program.finished());
+  }
+}
+
 // The servo answers a share of the error; halfway through the ramp half of the change is asked.
 TEST(stress, goes_from_what_it_finds_smoothly) {
   for (const double found : {0.0, 2e6, 8e6}) {
@@ -57,6 +76,22 @@ TEST(stress, what_stays_missing_is_asked_again) {
     task.update(seen);
     if (n % 1000 == 0) {
       EXPECT_NEAR(speed_of(task, seen, 1) / first, 1 + n * dt / time, 1e-6) << n;
+    }
+  }
+}
+
+// A platen that is pulled settles within the same hundredth.
+TEST(stress, of_either_sign_settles_within_a_hundredth) {
+  for (const double value : {5e6, -5e6}) {
+    Seen seen;
+    const StressTask::Parameters p = stress_of(value);
+    StressTask task(p);
+    task.begin(seen, 0, {});
+    seen.now = dt;
+    for (const auto &[share, settled] : {std::pair{1.0, true}, std::pair{1.009, true}, std::pair{0.991, true},
+                                         std::pair{1.011, false}, std::pair{0.989, false}}) {
+      seen.stress = share * value;
+      EXPECT_EQ(task.has_settled(seen), settled) << share << " of " << value;
     }
   }
 }

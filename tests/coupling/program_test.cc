@@ -33,6 +33,23 @@ TEST(axial_rate, each_platen_goes_at_half_the_rate_from_a_smooth_start) {
   }
 }
 
+TEST(axial_rate, ends_at_its_strain_and_goes_on_asking) {
+  Seen seen;
+  const auto drive = drive_of_both();
+  Program program(seen, list_of(at_rate(drive, 0.08, 0, until(Until::Reached::strain, 1e-3))), {drive});
+  seen.now = dt, ask(program);
+  seen.closure = 0.999e-3;
+  program.update();
+  EXPECT_FALSE(program.finished());
+  EXPECT_NEAR(program.progress(), 0.999, 1e-12);
+  seen.closure = 1e-3;
+  program.update();
+  EXPECT_TRUE(program.finished());
+  EXPECT_EQ(program.progress(), 1);
+  EXPECT_EQ(ask(program)[0].velocity[2], 0.04);
+  EXPECT_NEAR(program.expected_seconds(), 1e-3 * 0.1 / 0.08, 1e-15);
+}
+
 // As one that was read with a larger strain than it had finished at.
 TEST(axial_rate, goes_on_to_a_later_end_as_if_there_had_been_none_before) {
   const auto told = [](double at, double closure, Program &program, Seen &seen) {

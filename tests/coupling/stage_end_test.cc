@@ -45,6 +45,18 @@ TEST(consolidation, waits_for_the_platens_and_hands_over_from_its_end) {
   EXPECT_TRUE(program.finished());
 }
 
+TEST(consolidation, does_not_wait_for_ever) {
+  Seen seen;
+  Program program(seen, list_of(consolidation(4e6)));
+  seen.pressure = 4e6; // the platens never get there
+  seen.now = 2.999e-3; // twice as long as ramp and hold
+  ask(program), program.update();
+  EXPECT_FALSE(program.finished());
+  seen.now = 3e-3;
+  program.update();
+  EXPECT_TRUE(program.finished());
+}
+
 // Its task of a stress kept what was asked and borne, and nobody the rest.
 State as_of_version_1(const State &state) {
   State older = without(without(state, "ended_by"), "at_end");

@@ -60,6 +60,32 @@ INSTANTIATE_TEST_SUITE_P(static_press, StaticAgainstExplicit,
                                          Case{"glued", 0, unbreakable_bond(), true}),
                          [](const testing::TestParamInfo<Case> &c) { return c.param.name; });
 
+TEST(static_press, stress_is_linear_where_no_contact_changes) {
+  PlatenTestSettings settings = pressed_by(1e6, unbreakable_bond());
+  settings.end_layer = 0.05; // few seats, and no other sphere within reach
+  PlatenTest problem(cylinder(), settings);
+  const StaticPress once = press_statically(problem, 1e-7), twice = press_statically(problem, 2e-7);
+  ASSERT_EQ(once.closed_top, twice.closed_top);
+  EXPECT_NEAR(twice.stress, 2 * once.stress, 1e-6 * once.stress);
+}
+
+// Glue holds sideways without friction, and where free ends would let go.
+TEST(static_press, glued_ends_are_stiffer_than_free_ones) {
+  PlatenTestSettings settings = pressed_by(0, unbreakable_bond());
+  PlatenTest lubricated(cylinder(), settings);
+  settings.platens.glued = true;
+  PlatenTest glued(cylinder(), settings);
+  settings = pressed_by(1e6, unbreakable_bond());
+  PlatenTest sticking(cylinder(), settings);
+  const StaticPress slides = press_statically(lubricated, 1e-5), holds = press_statically(glued, 1e-5),
+                    sticks = press_statically(sticking, 1e-5);
+  EXPECT_GT(holds.platen_modulus(), 1.001 * slides.platen_modulus());
+  EXPECT_GE(holds.platen_modulus(), (1 - 1e-6) * sticks.platen_modulus()); // one spring more or as many
+  EXPECT_GE(holds.closed_top, sticks.closed_top);
+  EXPECT_EQ(holds.closed_top, static_cast<std::size_t>(glued.top().layer().seats()));
+  EXPECT_EQ(holds.closed_bottom, static_cast<std::size_t>(glued.bottom().layer().seats()));
+}
+
 // One on the lower platen, carried up by it alone, and one that touches nothing.
 TEST(static_press, loose_spheres_change_nothing) {
   const dem::Specimen bonded = cylinder();

@@ -76,6 +76,26 @@ TEST(surface_search, an_inner_edge_of_a_flat_face_has_the_normal_of_the_face) {
     }
 }
 
+// Around a centre of curvature of a saddle many points are as near as the closest one, which is then found to
+// a few digits alone: the normal is that of the surface all the same, not the way to the centre.
+TEST(surface_search, the_normal_of_a_saddle_is_square_to_it_at_its_centre_of_curvature) {
+  fem::SurfaceMesh saddle; // z = x y / 2
+  saddle.vertices = {{-1, -1, 0.5}, {1, -1, -0.5}, {1, 1, 0.5}, {-1, 1, -0.5}};
+  saddle.velocities.resize(4), saddle.faces = {{0, 1, 2, 3}}, saddle.face_tags = {0};
+  const SurfaceSearch search(saddle, 0.1);
+  int met = 0;
+  for (const Vector3 &p : random_points(1000, 1e-6, 3)) {
+    const SurfacePoint s = search.closest_of_all(saddle, Vector3{0, 0, 2} + p);
+    ASSERT_EQ(s.local.feature, Feature::face);
+    ASSERT_NEAR(norm(s.normal), 1, 1e-15);
+    ASSERT_LT(std::abs(dot(s.normal, s.along_u)), 1e-15);
+    ASSERT_LT(std::abs(dot(s.normal, s.along_v)), 1e-15);
+    ASSERT_NEAR(s.distance, 2, 1e-5);
+    met += norm(s.distance * s.normal + s.local.point) > 1e-12;
+  }
+  EXPECT_GT(met, 50); // few digits
+}
+
 bool same(const SurfacePoint &a, const SurfacePoint &b) {
   return a.face == b.face && a.distance == b.distance && norm(a.normal - b.normal) == 0 &&
          a.local.weights == b.local.weights;

@@ -8,6 +8,7 @@
 
 #include "sphere_scene.h"
 #include "tests/measured.h"
+#include "tests/surface_sums.h"
 
 namespace platen::coupling {
 namespace {
@@ -86,6 +87,24 @@ TEST_P(Transfer, loads_are_equal_and_opposite_to_what_the_particles_feel) {
   }
   measured::expect_below(7, "sum_of_forces", worst_force, 1e-13);
   measured::expect_below(7, "sum_of_moments", worst_moment, 1e-13);
+}
+
+// The same weights both ways: the power that the body takes up is force times surface velocity, contact by
+// contact.
+TEST_P(Transfer, power_is_the_same_on_both_sides) {
+  Crowd crowd(GetParam());
+  SphereScene &scene = crowd.scene;
+  const dem::Particles &p = scene.particles;
+  double power = 0, size = 0;
+  for (const ActiveContact &c : scene.layer.contacts()) {
+    const auto i = static_cast<std::size_t>(c.particle);
+    const Vector3 f = p.force[i], r = c.point - scene.body.centre();
+    const Vector3 w = scene.body.angular_velocity(), surface = scene.body.velocity() + cross(w, r);
+    const Vector3 seat = (*p.torque)[i] - cross(c.point - p.position[i], f);
+    power += dot(f, surface) + dot(seat, w);
+    size += norm(f) * norm(surface);
+  }
+  EXPECT_NEAR(fem::load_power(scene.body), -power, 1e-12 * size);
 }
 
 INSTANTIATE_TEST_SUITE_P(with_and_without_seats, Transfer,

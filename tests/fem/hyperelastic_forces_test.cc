@@ -20,6 +20,15 @@ TEST(hyperelastic_solid, mass_is_density_times_volume) {
   EXPECT_NEAR(sum, 1100 * volume, 1e-13 * 1100 * volume);
 }
 
+// Energy in mu V: round-off of 1 - 1; forces in mu A: the bulk modulus is 50 mu.
+TEST(hyperelastic_solid, a_rotation_by_any_angle_stores_nothing) {
+  HyperelasticSolid solid = sleeve();
+  solid.set_displacement(turned_places(solid, std::vector<Vector3>(solid.mesh().nodes.size())));
+  const double mu = rubber.law.shear_modulus;
+  EXPECT_LT(std::abs(solid.internal_energy()), 1e-14 * mu * solid.volume());
+  EXPECT_LT(largest(solid.internal_forces()), 1e-12 * mu * 1e-4);
+}
+
 TEST(hyperelastic_solid, forces_and_pressure_turn_with_the_solid) {
   HyperelasticSolid solid = sleeve();
   solid.set_pressure(mantle_tag, 1e5);

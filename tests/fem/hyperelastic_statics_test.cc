@@ -77,6 +77,24 @@ TEST(hyperelastic_statics, newton_converges_with_order_two) {
   EXPECT_GT(order, 1.8) << r[k - 2] << ' ' << r[k - 1] << ' ' << r[k];
 }
 
+// The prescribed ends carry what the pressure does not.
+TEST(hyperelastic_statics, leads_balance_the_pressure) {
+  HyperelasticSolid solid(make_grid(Tube{0.05, 0.005, 0.0, 0.06, 16, 6, 2}),
+                          {1100, NeoHookean::from_young(3e6, 0.45)});
+  Newton newton(solid);
+  const std::vector<int> above = solid.nodes_of(high_end_tag);
+  const int low = newton.prescribe(solid.nodes_of(low_end_tag), {true, true, true});
+  const int high = newton.prescribe(above, {true, true, true});
+  solid.set_pressure(inner_tag, 3e4);
+  newton.place(above, {0.002, 0, -0.004});
+  newton.solve();
+  Vector3 sum = solid.prescribed_force(low) + solid.prescribed_force(high);
+  for (const Vector3 &f : solid.pressure_forces())
+    sum = sum + f;
+  EXPECT_GT(norm(solid.prescribed_force(high)), 1);
+  EXPECT_LT(norm(sum), 1e-7 * norm(solid.prescribed_force(high)));
+}
+
 // ---- the tube of physics: inner and outer radius 1 and 1.3, plane strain
 double closed_form(double a) { // pressure over shear modulus at the inner radius a
   const double A = 1, B = 1.3, c = A * A - a * a, b = std::sqrt(B * B - c);
@@ -124,6 +142,20 @@ TEST(hyperelastic_statics, a_tube_is_inflated_as_the_closed_form_says) {
   measured::expect_below(26, "pressure_of_an_inflated_tube_2_through", error[1], 0.03);
   for (k = 1; k < 3; ++k)
     EXPECT_GT(error[k - 1] / error[k], 3.5); // second order
+}
+
+// p = mu t0/R0 (1 - lambda^-4), with radii of the wall's middle: the first order in t0/R0.
+TEST(hyperelastic_statics, a_thin_sleeve_softens_as_it_is_stretched) {
+  const NeoHookean law = NeoHookean::from_young(2 * (1 + 0.499), 0.499);
+  const double t0 = 0.02, R0 = 1.01;
+  PlaneTube tube(t0, 64, 1, law);
+  for (const double share : {0.3, 0.5, 0.7}) { // of the pressure that it never reaches
+    const double p = share * t0 / R0;
+    tube.inflate(p);
+    const double a = inner_radius(tube.solid), b = std::sqrt(a * a + 1.02 * 1.02 - 1);
+    const double stretch = 0.5 * (a + b) / R0;
+    EXPECT_NEAR(p, t0 / R0 * (1 - std::pow(stretch, -4)), 0.02 * p);
+  }
 }
 
 // A strip of a 3 mm sleeve bent by an end force, against Euler and Bernoulli with shear: the figure for how

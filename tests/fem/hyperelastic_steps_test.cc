@@ -81,6 +81,20 @@ TEST(hyperelastic_solid, works_of_a_slow_path_are_stored) {
   EXPECT_NEAR(error[0] / error[1], 4, 1);
 }
 
+TEST(hyperelastic_solid, steps_below_the_limit_stay_bounded_and_above_it_do_not) {
+  const double limit = limit_of(held_sleeve(0));
+  HyperelasticSolid calm = held_sleeve(2e3), wild = held_sleeve(2e3);
+  const double dt = 0.95 * calm.stable_step(); // it stiffens a little on its way
+  double energy = 0, work = 0;
+  for (int k = 0; k < 2000; ++k) {
+    step(calm, dt, 1);
+    energy = std::max(energy, calm.kinetic_energy() + calm.internal_energy());
+    work = std::max(work, calm.pressure_work());
+  }
+  EXPECT_LT(energy, 2 * work);
+  EXPECT_THROW(step(wild, 1.2 * limit, 2000), InvertedElement);
+}
+
 TEST(hyperelastic_solid, damped_steps_come_to_rest_where_newton_does) {
   HyperelasticSolid explicit_one = held_sleeve(2e4),
                     implicit = sleeve({1100, NeoHookean::from_young(3e6, 0.45)});

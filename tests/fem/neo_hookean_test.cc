@@ -22,6 +22,12 @@ class Random {
 public:
   double operator()(double size) { return size * spread_(engine_); }
   Vector3 point(double size) { return {(*this)(size), (*this)(size), (*this)(size)}; }
+  Tensor tensor(double size) {
+    Tensor f = identity_tensor;
+    for (double &x : f)
+      x += (*this)(size);
+    return f;
+  }
   Corners corners(double size) {
     Corners c;
     for (Vector3 &p : c)
@@ -124,9 +130,33 @@ TEST(mean_dilatation, the_eigenvalue_bound_is_safe_and_close) {
     }
 }
 
+TEST(mean_dilatation, the_mean_stress_of_an_even_strain_is_that_of_the_law) {
+  Random random;
+  const Tensor f = random.tensor(0.2);
+  const Corners place = tube().gather(4, tube().nodes);
+  Corners u;
+  for (std::size_t a = 0; a < 8; ++a)
+    for (std::size_t i = 0; i < 3; ++i)
+      u[a][i] =
+          f[3 * i] * place[a][0] + f[3 * i + 1] * place[a][1] + f[3 * i + 2] * place[a][2] - place[a][i];
+  const CellStress stress = cell_stress(laws[2], tube().cells[4], u);
+  const Tensor tau = kirchhoff(laws[2], f);
+  EXPECT_NEAR(stress.volume_ratio, determinant(f), 1e-13);
+  for (std::size_t k = 0; k < 9; ++k)
+    EXPECT_NEAR(stress.cauchy[k], tau[k] / determinant(f), 1e-11 * laws[2].bulk_modulus);
+}
+
 // ---- faces
 FaceCorners warped() {
   return {Vector3{0.1, 0, 0.2}, {1, -0.1, -0.3}, {1.2, 0.9, 0.4}, {-0.2, 1.1, -0.1}};
+}
+
+TEST(follower_pressure, corner_areas_sum_to_the_area_vector) {
+  const FaceCorners x = warped();
+  Vector3 sum{};
+  for (const Vector3 &area : corner_areas(x))
+    sum = sum + area;
+  EXPECT_LT(norm(sum - 0.5 * cross(x[2] - x[0], x[3] - x[1])), 1e-15);
 }
 
 // By a fine quadrature of the definition, which is exact to its own error 1e-6.

@@ -132,7 +132,7 @@ Outcome run_at(const Case &c, double share, long steps) {
   EXPECT_EQ(problem.time_step_reason().find("sleeve") != std::string::npos, of_sleeve)
       << problem.time_step_reason();
   const Outcome o = run(problem, steps);
-  if (of_sleeve && share < 1) {
+  if (problem.sleeve() != nullptr && share < 1) {
     EXPECT_LE(problem.time_step(), problem.sleeve()->known_limit());
   }
   return o;
