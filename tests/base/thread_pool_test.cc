@@ -30,6 +30,18 @@ void meet(std::atomic<int> &here, int wanted, bool comes = true) {
     std::this_thread::yield();
 }
 
+TEST(thread_pool, does_every_part_once_on_any_number_of_threads) {
+  ThreadPool pool;
+  for (const int threads : {1, 2, 3, 8, 2})
+    for (const std::size_t parts : {0u, 1u, 2u, 7u, 1000u}) {
+      std::vector<int> done(parts, 0); // no thread shares a part
+      for (int loop = 0; loop < 20; ++loop)
+        run(pool, threads, parts, [&](std::size_t p) { ++done[p]; });
+      for (std::size_t p = 0; p < parts; ++p)
+        ASSERT_EQ(done[p], 20) << threads << " threads, part " << p << " of " << parts;
+    }
+}
+
 // Loops so short that threads come late to most of them; what one writes the next reads.
 TEST(thread_pool, loops_follow_each_other_without_mixing) {
   ThreadPool pool;
@@ -99,6 +111,16 @@ TEST(thread_pool, more_parts_than_can_be_counted_are_refused) {
   const std::size_t most = std::size_t{1} << 32;
   EXPECT_THROW(pool.run(loop_of(most, never), {}, 2), std::length_error);
   EXPECT_THROW(pool.run({}, loop_of(most, never), 2), std::length_error);
+}
+
+TEST(thread_pool, threads_work_at_the_same_time) {
+  ThreadPool pool;
+  std::atomic<int> here{0}, met{0};
+  run(pool, 2, 2, [&](std::size_t) {
+    meet(here, 2);
+    if (here == 2) ++met;
+  });
+  EXPECT_EQ(met, 2);
 }
 
 TEST(thread_pool, wakes_after_a_sleep) {

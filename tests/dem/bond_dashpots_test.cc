@@ -175,5 +175,43 @@ TEST(bond_history, memory_is_that_of_spheres_bonds_and_contacts) {
                                               both.contacts->search_state().bytes());
 }
 
+// The pair spins about its line by a radian, as one: shear goes round with it, the right way.
+TEST(bond_history, shear_of_a_cohesive_bond_spins_with_the_pair) {
+  ElastoDamagePlastic::Parameters p;
+  p.poisson_ratio = .2;
+  const ElastoDamagePlastic law(p); // never breaks
+  const double length = .01, aside = 1e-6;
+  const CohesiveGeometry<double> geometry{length, .5, 28e9 / length, 5e-5};
+  const Triple<double> distance{0, 0, length}, none{0, 0, 0};
+  for (const double angle : {1., -1., 2.}) {
+    CohesiveState<double> state{0, 0, 0, {aside, 0, 0}, {0, 0, 0}, 0};
+    const double before = law.response(state, geometry, distance).shear.x;
+    CohesiveResponse<double> now{};
+    constexpr int steps = 1000; // Cayley's form is off by a twelfth of the cube of an angle
+    for (int k = 0; k < steps; ++k)
+      now = law(state, geometry, {distance, none, none, angle / steps * length});
+    EXPECT_NEAR(now.shear.x / before, std::cos(angle), 1e-6) << angle;
+    EXPECT_NEAR(now.shear.y / before, std::sin(angle), 1e-6) << angle; // from x to y about z
+  }
+}
+
+// Bonds that carry forces alone store nothing where a sphere turns on the spot but what their shear takes:
+// the loop that sums them up says the same as the law.
+TEST(bond_history, bonds_without_moments_store_no_bending) {
+  ModelSettings settings = bonded();
+  parallel_bond(settings).moments = false;
+  Model model(row(6, {1, 0, 0}), settings);
+  Particles &p = model.particles;
+  for (std::size_t i = 0; i < p.size(); ++i) // a twist that grows along the row: no contact point moves
+    (*p.orientation)[i] = rotation_quaternion({1e-3 * p.reference_position[i].x / radius, 0, 0});
+  EXPECT_LT(bond_energy(p, *model.bonds), 1e-12 * modulus * radius * radius * radius * 1e-6);
+  for (std::size_t i = 0; i < p.size(); ++i)
+    p.position[i].y = 1e-3 * radius * std::sin(static_cast<double>(i));
+  double sum = 0;
+  for (std::size_t k = 0; k < model.bonds->size(); ++k)
+    sum += model.bonds->response(k, p).energy;
+  EXPECT_NEAR(bond_energy(p, *model.bonds), sum, 1e-12 * sum);
+}
+
 } // namespace
 } // namespace platen::dem

@@ -45,6 +45,31 @@ TEST(bond_invariance, ten_rigid_turns_break_nothing_and_store_nothing) {
   EXPECT_LT(bond_energy(p, *model.bonds), 1e-20 * at_strength * static_cast<double>(model.bonds->size()));
 }
 
+// A cluster that spins freely stretches under its own weight; the bond forces then rotate with it.
+TEST(bond_invariance, a_preloaded_bond_keeps_its_force_in_the_turning_frame) {
+  Model model(row(1, {.2, .5, -.4}), bonded());
+  Particles &p = model.particles;
+  const Vector3 n = (p.position[1] - p.position[0]) / (2 * radius);
+  const Vector3 side = cross(n, Vector3{1, 0, 0}) / norm(cross(n, Vector3{1, 0, 0}));
+  const double strain = .5 * tensile_strength / modulus; // half the strength
+  p.position[1] += 2 * radius * strain * (n + .7 * side);
+  (*p.orientation)[1] = rotation_quaternion(strain * (n + side));
+  std::vector<BondBreak> breaks;
+  const Loads before = kernel_loads(p, *model.bonds, InstructionSet::baseline, breaks);
+  const Vector3 force = before.force[0], torque = before.torque[0];
+  ASSERT_NEAR(dot(force, n), .5 * tensile_strength * area, 1e-3 * tensile_strength * area);
+  const Quaternion turn = rotation_quaternion(.01 * skew_axis);
+  Quaternion whole;
+  for (int s = 0; s < 6283; ++s) {
+    turn_rigidly(p, turn, {});
+    whole = normalised(turn * whole);
+  }
+  const Loads after = kernel_loads(p, *model.bonds, InstructionSet::baseline, breaks);
+  // The law is exact; the tolerance is for 6000 roundings of a strain of 1e-4.
+  EXPECT_LT(norm(after.force[0] - rotate(whole, force)), 1e-6 * norm(force));
+  EXPECT_LT(norm(after.torque[0] - rotate(whole, torque)), 1e-6 * norm(torque));
+}
+
 // A free pair spinning about a skew axis, started at its own stretched equilibrium: it spins on without
 // sound.
 TEST(bond_invariance, a_freely_spinning_pair_keeps_its_stretch) {

@@ -50,14 +50,18 @@ inline MotionAfterPeak motion_of(const Specimen &specimen, const Field &field, c
   return m;
 }
 
-// Two planes that cross in the middle at this angle to the axis (rad), `thick` wide: the parts below and
-// above go with the platens, what is beside them gives way along x.
+// Two planes that cross in the middle at this angle to the axis (rad), `thick` wide: the parts below (1) and
+// above (2) go with the platens, those beside them (3, 4) give way along x.
+inline int part_of_cross(const Vector3 &x, double angle, double thick) {
+  const double z = x.z - Cylinder::length / 2,
+               beside = std::abs(x.x) * std::cos(angle) - std::abs(z) * std::sin(angle);
+  if (std::abs(beside) < thick / 2) return Cylinder::crumbs;
+  return beside < 0 ? (z < 0 ? 1 : 2) : (x.x < 0 ? 3 : 4);
+}
 inline Field crossing_planes(double angle, double thick) {
   return [=](const Vector3 &x) {
-    const double z = x.z - Cylinder::length / 2,
-                 beside = std::abs(x.x) * std::cos(angle) - std::abs(z) * std::sin(angle);
-    if (beside <= -thick / 2) return z < 0 ? of_bottom : of_top;
-    return Vector3{x.x < 0 ? -1. : 1., 0, 0} + half_way;
+    const int part = part_of_cross(x, angle, thick);
+    return part == 1 ? of_bottom : part == 2 ? of_top : Vector3{x.x < 0 ? -1. : 1., 0, 0} + half_way;
   };
 }
 

@@ -9,7 +9,9 @@
 #include <array>
 #include <cmath>
 
+#include "base/random.h"
 #include "tests/dem/examples.h"
+#include "tests/dem/static_solve.h"
 
 namespace platen::dem {
 namespace {
@@ -114,6 +116,76 @@ TEST(cohesive_beam, tangent_at_rest_is_the_matrix_of_the_beam) {
     }
 }
 
+struct Ends {
+  Vector3 force, torque_i, torque_j;
+};
+
+// Andre et al. 2012 as mended (co-rotational, sections turn by finite angles against the chord).
+Ends beam_of_finite_rotations(const Vector3 &reference, const Vector3 &d, const Quaternion &qi,
+                              const Quaternion &qj) {
+  const Vector3 x0 = reference / norm(reference), x = d / norm(d);
+  const Vector3 any = std::abs(x0.x) < .7 ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
+  const Vector3 y0 = cross(x0, any) / norm(cross(x0, any));
+  const double l = norm(reference);
+  Vector3 phi[2], y[2];
+  const Quaternion *q[] = {&qi, &qj};
+  for (int k = 0; k < 2; ++k) {
+    const Vector3 normal = rotate(*q[k], x0), axis = cross(x, normal);
+    const double sine = norm(axis);
+    phi[k] = sine > 0 ? std::atan2(sine, dot(x, normal)) / sine * axis : Vector3{};
+    y[k] = rotate(rotation_quaternion(-phi[k]), rotate(*q[k], y0));
+  }
+  const double psi = std::atan2(dot(x, cross(y[0], y[1])), dot(y[0], y[1]));
+  const double stiff = young * inertia / l, twist = twisting * length / l;
+  Ends e;
+  e.torque_i = twist * psi * x - 2 * stiff * (2 * phi[0] + phi[1]);
+  e.torque_j = -twist * psi * x - 2 * stiff * (phi[0] + 2 * phi[1]);
+  e.force = young * section * (norm(d) - l) / l * x - cross(x, e.torque_i + e.torque_j) / norm(d);
+  return e;
+}
+
+// A beam in any direction, turned by anything, strained and turned at its ends by about `angle`.
+struct Bent {
+  Vector3 reference, d;
+  Quaternion qi, qj;
+};
+Bent bent(Random &random, double angle) {
+  Bent b;
+  b.reference = length * random.uniform(.7, 1.3) * random.direction();
+  const Quaternion common = rotation_quaternion(random.uniform(0, 3) * random.direction());
+  b.d = rotate(common, b.reference + angle * norm(b.reference) * random.direction());
+  b.qi = rotation_quaternion(angle * random.direction()) * common;
+  b.qj = rotation_quaternion(angle * random.direction()) * common;
+  return b;
+}
+BondResponse<double> respond(const CohesiveBeam &law, const Bent &b) {
+  return law(along<double>(b.reference), {triple(b.d), rotation(b.qi), rotation(b.qj)});
+}
+
+// Largest difference from the paper's beam over its own largest force and torque.
+double error_against_paper(double angle) {
+  double worst = 0;
+  Random random(3);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Bent b = bent(random, angle);
+    const BondResponse<double> r = respond(beam(), b);
+    const Ends wanted = beam_of_finite_rotations(b.reference, b.d, b.qi, b.qj);
+    worst = std::max(worst, norm(vector(r.force) - wanted.force) / norm(wanted.force));
+    const double torque = std::max(norm(wanted.torque_i), norm(wanted.torque_j));
+    worst = std::max({worst, norm(vector(r.torque_i) - wanted.torque_i) / torque,
+                      norm(vector(r.torque_j) - wanted.torque_j) / torque});
+  }
+  return worst;
+}
+
+TEST(cohesive_beam, is_the_beam_of_the_paper_to_first_order_in_rotation) {
+  const double at_hundredth = error_against_paper(1e-2), at_thousandth = error_against_paper(1e-3),
+               at_ten_thousandth = error_against_paper(1e-4);
+  EXPECT_LT(at_hundredth, 5e-2);
+  EXPECT_LT(at_thousandth, .2 * at_hundredth);
+  EXPECT_LT(at_ten_thousandth, .2 * at_thousandth);
+}
+
 CohesiveBeam strong(double tensile, double shear, double beta = 1) {
   CohesiveBeam::Parameters p = beam().parameters;
   p.tensile_strength = tensile;
@@ -179,6 +251,42 @@ TEST(cohesive_beam, a_cantilever_is_strained_most_where_it_is_clamped) {
   EXPECT_NEAR(other.tension_ratio, 1, 1e-6);
 }
 
+ModelSettings beams() {
+  return bonded_by_beams(young, poisson, slender);
+}
+
+class BeamChain : public testing::TestWithParam<int> {};
+
+// Exact at the nodes, whatever their number.
+TEST_P(BeamChain, bends_twists_and_stretches_as_one_beam) {
+  const int n = GetParam();
+  const double l = n * length;
+  struct Case {
+    Vector3 force, torque, moved, turned;
+  };
+  const double p = 1e-9 * bending * length / (l * l), t = 1e-9 * bending * length / l,
+               f = 1e-9 * axial * length / l;
+  const double ei = bending * length, gi = twisting * length, es = axial * length;
+  for (const Case &c :
+       {Case{{0, p, 0}, {}, {0, p * l * l * l / (3 * ei), 0}, {0, 0, p * l * l / (2 * ei)}},
+        Case{{}, {0, t, 0}, {0, 0, -t * l * l / (2 * ei)}, {0, t * l / ei, 0}},
+        Case{{}, {t, 0, 0}, {}, {t * l / gi, 0, 0}}, Case{{f, 0, 0}, {}, {f * l / es, 0, 0}, {}}}) {
+    Model model(row(n, {1, 0, 0}), beams());
+    ASSERT_EQ(model.bonds->size(), static_cast<std::size_t>(n));
+    const std::size_t clamp = row_of(model.particles, 0), tip = row_of(model.particles, n);
+    const Vector3 before = model.particles.position[tip];
+    solve_statics(model, {clamp}, {{tip, c.force, c.torque}}, length, 1e-6);
+    const Vector3 moved = model.particles.position[tip] - before;
+    const Quaternion &q = (*model.particles.orientation)[tip];
+    const Vector3 turned = 2 * Vector3{q.x, q.y, q.z};
+    const double size = norm(c.moved) > 0 ? norm(c.moved) : l * norm(c.turned);
+    EXPECT_LT(norm(moved - c.moved), 2e-9 * size + 4e-16 * l) << n;
+    EXPECT_LT(norm(turned - c.turned) * l, 2e-9 * size + 4e-16 * l) << n;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(cohesive_beam, BeamChain, testing::Values(1, 2, 5));
+
 // A chain clamped at one end and bent by a moment at the other to half a circle, by a damped explicit run
 // until damping has left some 1e-9 of its oscillations. Every bond turns by the angle whose sine is M l/EI:
 // its potential is that of the half angle.
@@ -203,6 +311,29 @@ TEST(cohesive_beam, chains_bend_to_a_circle) {
     EXPECT_NEAR(norm(b - a) * norm(c - b) * norm(a - c) / (2 * norm(cross(b - a, c - a))) / exact, 1, 1e-6)
         << k;
   }
+}
+
+// Explicit steps neither make nor lose energy, and the time step knows the beams.
+TEST(cohesive_beam, a_free_packing_of_beams_keeps_its_energy) {
+  Model model(packed_box(8, 8, 8), beams());
+  Random random(4);
+  for (std::size_t i = 0; i < model.particles.size(); ++i) {
+    model.particles.velocity[i] = .1 * random.direction();
+    (*model.particles.angular_velocity)[i] = .1 / radius * random.direction();
+  }
+  const double dt = .3 * model.stable_step({}, 0).limit;
+  const auto total = [&] {
+    const EnergyLedger e = model.energy();
+    return e.kinetic + e.bonds;
+  };
+  step(model, dt);
+  const double before = total();
+  double largest = 0;
+  for (int s = 0; s < 3000; ++s) {
+    step(model, dt);
+    largest = std::max(largest, std::abs(total() - before));
+  }
+  EXPECT_LT(largest, 2e-2 * before); // of second order in the step, and bounded
 }
 
 } // namespace

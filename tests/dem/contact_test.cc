@@ -166,6 +166,28 @@ TEST(contact, friction_never_exceeds_its_limit) {
     }
 }
 
+// Oblique impact that slides throughout: the tangential impulse is mu times the normal one, 2 m* v_n.
+TEST(contact, gross_sliding_turns_impulse_into_spin) {
+  const double mu = .3, vn = .1, vt = 1;
+  // So stiff that the normal turns by 1e-4 while they touch.
+  ModelSettings settings = unbonded(NormalContact::linear, TangentialContact::coulomb, 1e9);
+  settings.contact->friction = mu;
+  Model model(pair_of(), settings);
+  Particles &p = model.particles;
+  p.velocity[0] = {.5 * vn, -.5 * vt, 0}, p.velocity[1] = {-.5 * vn, .5 * vt, 0};
+  const double before = kinetic_energy(p), duration = pi * std::sqrt(.5 * p.mass[0] / 1e9);
+  step(model, duration / 2000, 4000);
+  ASSERT_EQ(model.contacts->touching_count(), 0u);
+  const double impulse = p.mass[0] * vn;
+  EXPECT_NEAR(p.velocity[1].x, .5 * vn, 5e-3 * vn);
+  EXPECT_NEAR(p.velocity[1].y, .5 * vt - mu * impulse / p.mass[1], 1e-3 * vn);
+  for (std::size_t i = 0; i < 2; ++i) // both surfaces are dragged along: the same sense of spin
+    EXPECT_NEAR((*p.angular_velocity)[i].z, mu * impulse * radius / (*p.inertia)[i],
+                2e-3 * mu * impulse * radius / (*p.inertia)[i]);
+  EXPECT_NEAR(model.contacts->friction_work, before - kinetic_energy(p),
+              1e-3 * model.contacts->friction_work);
+}
+
 TEST(contact, friction_work_is_the_kinetic_energy_lost) {
   for (const NormalContact normal : {NormalContact::linear, NormalContact::hertz})
     for (const double vt : {.05, .2, .6}) { // sticks throughout, sticks and slides, slides

@@ -95,6 +95,15 @@ TEST(dead_zone, half_angle_and_base_of_a_cone_are_found) {
   }
 }
 
+// Volume of a cone whose base fits on the platen, over that of the specimen.
+TEST(dead_zone, its_share_of_the_volume_is_that_of_the_cone) {
+  for (const Wanted w : {Wanted{30, 34}, Wanted{25, 42}}) {
+    const double share = w.base() * w.base() * w.depth / (3 * h);
+    for (const DeadZone &zone : zones_of(cones(w, w)).at_end)
+      EXPECT_NEAR(zone.volume_fraction / share, 1, .1);
+  }
+}
+
 // Between .5 and .8 of the end nothing is decided, below there is none.
 TEST(dead_zone, the_base_decides) {
   for (const auto &[wanted, verdict] :
@@ -200,6 +209,29 @@ TEST(dead_zone, a_specimen_that_barrels_without_breaking_has_no_cones) {
   EXPECT_EQ(verdicts(.3, 2).dead[top_end].verdict, DeadZoneVerdict::unbroken);
   break_share(.1);
   EXPECT_TRUE(verdicts(.3, 2).dead[top_end].is_cone());
+}
+
+// A specimen upside down has its zones exchanged.
+TEST(dead_zone, a_specimen_upside_down_has_the_same_cones) {
+  const Wanted bottom{32, 34}, top{26, 40};
+  const DeadZones upright = zones_of(cones(bottom, top));
+  Specimen turned = specimen();
+  MotionAfterPeak m = motion_of(turned, cones(bottom, top));
+  for (Vector3 &x : turned.centre)
+    x = {x.x, -x.y, h * radius - x.z};
+  for (Vector3 &u : m.displacement)
+    u = {u.x, -u.y, -u.z};
+  for (PlatenMotion &platen : m.platens)
+    platen.displacement.z *= -1;
+  std::swap(m.platens[bottom_end], m.platens[top_end]);
+  const DeadZones found = find_dead_zones(turned, m);
+  for (const auto &[one, other] : {std::pair{bottom_end, top_end}, std::pair{top_end, bottom_end}}) {
+    const DeadZone &before = upright.at_end[one], &after = found.at_end[other];
+    EXPECT_NEAR(after.half_angle, before.half_angle, .01);
+    EXPECT_NEAR(after.apex.z, h * radius - before.apex.z, .3 * radius);
+    EXPECT_NEAR(after.axis.z, -before.axis.z, 1e-3);
+    EXPECT_EQ(found.members[other], upright.members[one]);
+  }
 }
 
 // Of a box the radius is that of a circle as large as its section.

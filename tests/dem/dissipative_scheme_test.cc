@@ -37,6 +37,10 @@ public:
 
 struct Amplification {
   double trace, determinant;
+  double radius() const { // largest eigenvalue
+    const double root = .25 * trace * trace - determinant;
+    return root < 0 ? std::sqrt(determinant) : .5 * std::abs(trace) + std::sqrt(root);
+  }
 };
 
 // Of one step, in x and v/w; W = w dt.
@@ -59,6 +63,45 @@ TEST(dissipative_scheme, has_the_amplification_of_its_source) {
       EXPECT_NEAR(a.determinant, 1 - (phi - 1) * W * W, 1e-9);
       EXPECT_NEAR(a.trace, 2 - phi * W * W, 1e-9);
     }
+  EXPECT_NEAR(amplification(1.3, 1).radius(), .83666, 5e-6);
+}
+
+// Oscillations below W = 2/phi are complex: both eigenvalues shrink alike. Above, one of them comes back
+// to 1.
+TEST(dissipative_scheme, damps_most_at_the_bifurcation) {
+  const double phi = 1.3, W = 2 / phi;
+  EXPECT_NEAR(amplification(phi, W).radius(), phi * W * W / 2 - 1,
+              1e-4); // a double root shows errors as roots
+  EXPECT_GT(amplification(phi, W - .05).radius(), amplification(phi, W).radius());
+  EXPECT_GT(amplification(phi, W + .02).radius(), amplification(phi, W).radius());
+}
+
+TEST(dissipative_scheme, damps_slow_oscillations_by_half_of_excess_and_step) {
+  const double phi = 1.2, W = .05, size = 1e-3 * radius;
+  Oscillator oscillator(dissipative(phi), size, 0);
+  const int steps = 4000;
+  for (int s = 0; s < steps; ++s)
+    step(oscillator.model, W / oscillator.omega);
+  const double amplitude = std::hypot(oscillator.x(), oscillator.v() / oscillator.omega);
+  const double ratio = -std::log(amplitude / size) / (W * steps);
+  // The next terms of the logarithm are of the order W^2; the amplitude oscillates by (phi - 1) W.
+  EXPECT_NEAR(ratio, .5 * (phi - 1) * W, .02 * .5 * (phi - 1) * W);
+}
+
+// The loops of the scheme with next to no dissipation: what they lose in 1e5 steps is (phi - 1) W^2 each.
+TEST(dissipative_scheme, without_excess_holds_the_energy) {
+  const double W = .5;
+  Oscillator oscillator(dissipative(1 + 1e-10), 1e-3 * radius, 0);
+  const double start = oscillator.model.energy().stored();
+  double most = 0, least = 2 * start;
+  for (int s = 0; s < 100000; ++s) {
+    step(oscillator.model, W / oscillator.omega);
+    const double e = oscillator.model.energy().stored();
+    most = std::max(most, e), least = std::min(least, e);
+  }
+  // The band of velocity Verlet, W^2/4 of the energy.
+  EXPECT_LT(most, (1 + .26 * W * W) * start);
+  EXPECT_GT(least, (1 - .26 * W * W) * start);
 }
 
 // Energy, what was lost and dt^2/8 m a^2, the band of velocity Verlet, balance to round-off where springs are
@@ -172,6 +215,51 @@ INSTANTIATE_TEST_SUITE_P(dissipative_scheme, DissipativeLimit,
                                          Case{"usual_with_dashpots", 1.3, 0, .2},
                                          Case{"with_everything", 1.2, .3, .1}),
                          [](const auto &of) { return std::string(of.param.name); });
+
+// A bonded bar in motion: long waves and a twist.
+double bar_residual(double phi, double &lost) {
+  std::vector<Vector3> centres;
+  for (int z = 0; z < 12; ++z)
+    for (int k = 0; k < 9; ++k)
+      centres.push_back(2 * radius * Vector3{1.0 * (k % 3), 1.0 * (k / 3), 1.0 * z});
+  Model model(spheres(centres), dissipative(phi));
+  Particles &p = model.particles;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double c = std::cos(pi * p.position[i].z / (24 * radius));
+    p.velocity[i] = Vector3{.2 * c, .1 * c * c - .05, .5 * c} + cross(Vector3{0, 0, 20 * c}, p.position[i]);
+    (*p.angular_velocity)[i] = {0, 0, 20 * c};
+  }
+  const double dt = .4 * model.stable_step({}, 0).limit, start = model.energy().stored();
+  double most = 0;
+  for (int s = 0; s < 3000; ++s) {
+    step(model, dt);
+    const EnergyLedger e = model.energy();
+    most = std::max(most, std::abs(e.stored() + e.lost() - start) / start);
+  }
+  lost = model.energy().lost() / start;
+  return most;
+}
+
+TEST(dissipative_scheme, closes_the_balance_as_velocity_verlet_does) {
+  double lost_by_verlet = 0, lost = 0;
+  const double verlet = bar_residual(1, lost_by_verlet), residual = bar_residual(1.3, lost);
+  EXPECT_EQ(lost_by_verlet, 0);
+  EXPECT_GT(lost, .1);
+  EXPECT_LT(residual, 1.2 * verlet); // the same band, of a motion that dies away
+}
+
+TEST(dissipative_scheme, keeps_momentum) {
+  ModelSettings settings = dissipative(1.3);
+  Model model(packed_box(8, 8, 8), settings);
+  Random random(3);
+  for (Vector3 &v : model.particles.velocity)
+    v = {.1, .2, .3}, v += .1 * random.direction();
+  const Momentum before = momentum(model.particles);
+  const double dt = .7 * model.stable_step({}, 0).limit;
+  step(model, dt, 2000);
+  const Momentum after = momentum(model.particles);
+  EXPECT_LT(norm(after.linear - before.linear), 1e-11 * before.linear_scale);
+}
 
 // Going round is two oscillations at right angles: the orbit loses (phi - 1) W^2 a step. The spins of the
 // spheres, .4 of the orbit, follow it through the bond.

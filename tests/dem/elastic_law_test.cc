@@ -235,6 +235,18 @@ BondMotion<double> at_rest() {
   return {{bond_length, 0, 0}, {1, 0, 0, 0}, {1, 0, 0, 0}};
 }
 
+// Linear: only round-off of the length, 1e-16 over the strain of 1e-5, is left.
+TEST(parallel_bond, axial_force_follows_youngs_modulus) {
+  const double force = 100; // N
+  BondMotion<double> m = at_rest();
+  m.distance.x += force * bond_length / (modulus * area);
+  const Response r = breakable_bond()(along_x(), m);
+  EXPECT_NEAR(r.force.x, force, 1e-10 * force);
+  EXPECT_NEAR(r.normal_force, force, 1e-10 * force);
+  EXPECT_EQ(r.force.y, 0);
+  EXPECT_EQ(r.force.z, 0);
+}
+
 // Linear: only round-off of the length, 1e-16 over the strain of 1e-4, is left.
 TEST(parallel_bond, tension_breaks_at_strength_times_area) {
   BondMotion<double> m = at_rest();
@@ -261,6 +273,17 @@ TEST(parallel_bond, bending_breaks_at_the_section_modulus) {
   EXPECT_LT(r.shear_ratio, 1e-10);
 }
 
+TEST(parallel_bond, bending_stiffness_is_that_of_the_section) {
+  const double angle = 1e-6; // relative error angle^2 / 6
+  BondMotion<double> m = at_rest();
+  m.turn_j = rotation(rotation_quaternion({0, 0, angle}));
+  m.distance = triple(.5 * bond_length * (Vector3{1, 0, 0} + Vector3{std::cos(angle), std::sin(angle), 0}));
+  const Response r = breakable_bond()(along_x(), m); // the contact points stay together: no shear
+  const double moment = normal_stiffness * second_moment * angle;
+  EXPECT_NEAR(r.torque_i.z, moment, 1e-9 * moment);
+  EXPECT_NEAR(r.torque_j.z, -moment, 1e-9 * moment);
+}
+
 TEST(parallel_bond, torsion_breaks_at_the_polar_section_modulus) {
   const double strength = shear_strength * polar_moment / radius;
   const double angle = strength / (shear_stiffness * polar_moment);
@@ -272,6 +295,17 @@ TEST(parallel_bond, torsion_breaks_at_the_polar_section_modulus) {
   EXPECT_NEAR(r.torque_i.x, strength * (1 - softening), 1e-9 * strength);
   EXPECT_NEAR(r.torque_i.x / strength, r.shear_ratio, 1e-10);
   EXPECT_EQ(r.tension_ratio, 0);
+}
+
+// Spheres shifted against each other without turning: no moment at the contact point.
+TEST(parallel_bond, shear_follows_its_stiffness) {
+  const double slip = 1e-6 * bond_length;
+  BondMotion<double> m = at_rest();
+  m.distance.y = slip;
+  const Response r = breakable_bond()(along_x(), m);
+  const double force = shear_stiffness * area * slip;
+  EXPECT_NEAR(r.force.y, force, 1e-9 * force); // second order in slip / length
+  EXPECT_NEAR(r.torque_i.z, .5 * bond_length * force, 1e-9 * .5 * bond_length * force);
 }
 
 TEST(parallel_bond, shear_breaks_at_strength_times_area) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/pi.h"
 #include "tests/dem/one_bond.h"
 
 namespace platen::dem {
@@ -34,15 +35,16 @@ TEST(ElastoDamagePlastic, tension_softens_along_a_line_and_takes_the_area_under_
   const double limit = pair.opening_limit(), whole = 0.5 * 5e6 * 1.2 * limit * pair.geometry.area;
   const auto expect = [&](double opening, double stress, double damage) { // opening over the limit
     pair.move({0, 0, length + opening * limit - pair.pose.distance.z}, 7);
-    EXPECT_NEAR(pair.normal(), stress, 5e-4) << opening;
+    EXPECT_NEAR(pair.normal(), stress, 2.5e-4) << opening;
     EXPECT_NEAR(pair.state.tension_damage, damage, 1e-10) << opening;
-    EXPECT_NEAR(pair.state.dissipated, damage * whole, 1e-8 * whole) << opening;
+    EXPECT_NEAR(pair.state.dissipated, damage * whole, 1e-10 * whole) << opening;
   };
   expect(0.5, 2.5e6, 0);
   expect(1, 5e6, 0);
   expect(1.05, 3.75e6, 0.25);
   expect(1.1, 2.5e6, 0.5);
   expect(1.2 + 1e-9, 0, 1);
+  EXPECT_EQ(pair.state.tension_damage, 1);
   EXPECT_EQ(pair.normal(), 0);
   EXPECT_NEAR(pair.work, whole, 1e-8 * whole);
   EXPECT_EQ(pair.now.energy, 0);
@@ -82,6 +84,54 @@ TEST(ElastoDamagePlastic, damaged_tension_unloads_through_the_origin_and_comes_b
   EXPECT_NEAR(pair.state.dissipated, lost, 1e-10 * lost);
 }
 
+// Breakpoints of the paper's concrete: strains 7.14286e-4, 3.39286e-3, 1.410714e-2 at 20, 45, 70 MPa.
+TEST(ElastoDamagePlastic, closing_yields_along_three_branches) {
+  Interface pair(cohesive_bond_of_concrete());
+  const double strains[] = {7.142857142857143e-4, 3.392857142857143e-3, 1.4107142857142857e-2};
+  const double stresses[] = {20e6, 45e6, 70e6};
+  double before = 0;
+  for (int k = 0; k < 3; ++k) {
+    pair.move({0, 0, -(strains[k] - before) * length}, 9);
+    EXPECT_NEAR(pair.normal(), -stresses[k], 1e-10 * stresses[k]) << k;
+    before = strains[k];
+  }
+  pair.move({0, 0, -1e-3 * length}, 3);
+  EXPECT_NEAR(pair.normal(), -(70e6 + 28e9 / 22 * 1e-3), 1e-2);
+}
+
+TEST(ElastoDamagePlastic, closing_unloads_elastically_and_keeps_its_plastic_strain) {
+  Interface pair(cohesive_bond_of_concrete());
+  const double kink = 20e6 / 28e9; // strain at which yield begins; steps end there, so that work is exact
+  pair.move({0, 0, -kink * length}, 10);
+  pair.move({0, 0, -(2e-3 - kink) * length}, 10);
+  const double top = pair.normal(), expected = -(20e6 + (2e-3 * 28e9 - 20e6) / 3);
+  EXPECT_NEAR(top, expected, 1e-10 * 20e6);
+  pair.move({0, 0, 0.5e-3 * length}, 4);
+  EXPECT_NEAR(pair.normal(), top + 0.5e-3 * 28e9, 1e-2);
+  const double plastic = 2e-3 + top / 28e9; // strain that stays
+  pair.move({0, 0, (2e-3 - 0.5e-3 - plastic) * length}, 5);
+  EXPECT_NEAR(pair.normal(), 0, 1e-2);
+  // Work done is what yield took, to the closed form of the law.
+  const double taken = pair.law.plastic_work(pair.state, pair.geometry);
+  EXPECT_NEAR(pair.work, taken, 1e-9 * taken);
+  EXPECT_GT(taken, 0.5 * plastic * length * 20e6 * pair.geometry.area);
+  // Tension begins at the shifted origin.
+  pair.move({0, 0, 0.5 * pair.opening_limit()});
+  EXPECT_NEAR(pair.normal(), 2.5e6, 1e-2);
+}
+
+// Steps that end at the branches' ends, so that the trapezoid is exact.
+TEST(ElastoDamagePlastic, plastic_work_is_the_area_between_curve_and_unloading) {
+  Interface pair(cohesive_bond_of_concrete());
+  double at = 0;
+  for (const double strain : {7.142857142857143e-4, 3.392857142857143e-3, 1.4107142857142857e-2, 0.02}) {
+    pair.move({0, 0, -(strain - at) * length});
+    at = strain;
+    const double taken = pair.law.plastic_work(pair.state, pair.geometry);
+    EXPECT_NEAR(pair.work, taken + pair.now.energy, 1e-10 * pair.work) << strain;
+  }
+}
+
 TEST(ElastoDamagePlastic, shear_strength_grows_with_compression_and_softens_to_friction) {
   Interface pair(cohesive_bond_of_concrete());
   const double pressing = 10e6, strength = 16e6 + 0.9 * pressing, residual = 0.25 * pressing;
@@ -112,6 +162,22 @@ TEST(ElastoDamagePlastic, shear_strength_grows_with_compression_and_softens_to_f
   pair.impose({0, 0, 0}, {0, 0, 0}, 0);
   EXPECT_EQ(pair.normal(), 0);
   EXPECT_EQ(pair.shear(), 0);
+}
+
+// Work, stored and dissipated energy of a sliding interface under constant pressure, by fine steps: the
+// trapezoid misses the kinks by steps^-2.
+TEST(ElastoDamagePlastic, the_energy_of_sliding_under_pressure_is_accounted_for) {
+  Interface pair(cohesive_bond_of_concrete());
+  const double pressing = 10e6, strength = 16e6 + 0.9 * pressing;
+  pair.move({0, 0, -pressing / pair.geometry.normal_stiffness});
+  const double limit = strength / pair.shear_stiffness(), start = pair.now.energy;
+  double work = 0;
+  constexpr int steps = 40000;
+  for (int k = 0; k < steps; ++k) {
+    const Triple<double> part{2.5 * limit / steps, 0, 0};
+    work += pair.impose({0, 0, 0}, part, 0);
+  }
+  EXPECT_NEAR(work, pair.state.dissipated + pair.now.energy - start, 1e-6 * work);
 }
 
 // Velocity Verlet does the work of the mean of the forces at both ends of a step: the balance closes to
@@ -223,6 +289,58 @@ TEST(ElastoDamagePlastic, the_coupled_line_begins_with_the_first_tension_that_is
   EXPECT_EQ(tension_damage(-1e-3), 0);
 }
 
+TEST(ElastoDamagePlastic, history_turns_with_the_pair) {
+  Interface pair(cohesive_bond_of_concrete());
+  pair.impose({0, 0, 0}, {3e-6, 1e-6, 0}, 0);
+  const double before = pair.shear(), stored = pair.now.energy;
+  // Two turns about x, then two about the pair's own axis: nothing slides.
+  constexpr int steps = 4000;
+  for (int k = 1; k <= steps; ++k) {
+    const double angle = 4 * pi * k / steps;
+    const Triple<double> before_this = pair.pose.distance;
+    pair.pose.distance = {0, length * std::sin(angle), length * std::cos(angle)};
+    pair.impose(pair.pose.distance - before_this, {0, 0, 0}, 0);
+  }
+  EXPECT_NEAR(pair.shear(), before, 1e-10 * before);
+  EXPECT_NEAR(pair.now.energy, stored, 1e-10 * stored);
+  EXPECT_NEAR(pair.state.shear.x, 3e-6, 1e-6 * 3e-6); // angle^3 a step
+  for (int k = 1; k <= steps; ++k)
+    pair.impose({0, 0, 0}, {0, 0, 0}, 4 * pi / steps * length);
+  EXPECT_NEAR(pair.shear(), before, 1e-10 * before);
+  EXPECT_NEAR(pair.state.shear.x, 3e-6, 1e-5 * 3e-6); // angle^3/12 a step
+}
+
+TEST(ElastoDamagePlastic, strengths_that_are_never_reached_do_no_work) {
+  ElastoDamagePlastic::Parameters p;
+  Interface pair(p);
+  pair.move({0, 0, 1e-4}, 3);
+  pair.impose({0, 0, 0}, {1e-4, 0, 0}, 0);
+  pair.move({0, 0, -3e-4}, 3);
+  EXPECT_EQ(pair.state.dissipated, 0);
+  EXPECT_EQ(pair.state.plastic, 0);
+  EXPECT_NEAR(pair.normal(), -2e-4 * pair.geometry.normal_stiffness, 1);
+  EXPECT_TRUE(std::isfinite(pair.now.energy));
+}
+
+TEST(ElastoDamagePlastic, a_strength_factor_scales_both_strengths_and_keeps_fracture_energies) {
+  ElastoDamagePlastic::Parameters p = cohesive_bond_of_concrete();
+  p.fracture_energy_tension = 2;
+  Interface pair(p);
+  pair.geometry.strength_factor = 1.5;
+  pair.move({0, 0, 1.5 * pair.opening_limit()});
+  EXPECT_NEAR(pair.normal(), 7.5e6, 1);
+  EXPECT_NEAR(pair.state.tension_damage, 0, 1e-9);
+  pair.move({0, 0, 2 * 2 / 7.5e6 * (1 + 1e-9)}, 3);
+  EXPECT_EQ(pair.state.tension_damage, 1);
+  const double elastic = 0.5 * 7.5e6 * 1.5 * pair.opening_limit();
+  EXPECT_NEAR(pair.state.dissipated / pair.geometry.area, elastic + 2, 1e-7);
+  Interface other(p);
+  other.geometry.strength_factor = 1.5;
+  const double limit = 24e6 / other.shear_stiffness();
+  other.impose({0, 0, 0}, {1.25 * limit, 0, 0}, 0);
+  EXPECT_NEAR(other.state.shear_damage, 0.25, 1e-9);
+}
+
 ElastoDamagePlastic::Parameters bending_concrete() {
   ElastoDamagePlastic::Parameters p = cohesive_bond_of_concrete();
   p.moments = true;
@@ -306,6 +424,21 @@ TEST(CohesiveMoments, of_a_pressed_interface_damage_once_its_skin_is_pulled) {
   EXPECT_EQ(pair.state.tension_damage, 0);
   pair.bend(0.3e6 / (0.5 * kn * bond_radius));
   EXPECT_GT(pair.state.tension_damage, 0);
+}
+
+TEST(CohesiveMoments, a_rigid_turn_stores_nothing) {
+  Interface pair(bending_concrete());
+  pair.bend(1e-4), pair.twist(2e-4);
+  const double energy = pair.now.energy;
+  const int steps = 20000;
+  for (int k = 0; k < steps; ++k) {
+    const Triple<double> turn{1.5 * pi / steps, 0, 0};
+    const Quaternion q = rotation_quaternion({turn.x, turn.y, turn.z});
+    const Triple<double> to = turned(Rotation<double>{q.w, q.x, q.y, q.z}, pair.pose.distance);
+    pair.OneBond::move(to - pair.pose.distance, turn, turn);
+  }
+  EXPECT_NEAR(pair.now.energy, energy, 1e-6 * energy);
+  EXPECT_EQ(pair.state.dissipated, 0);
 }
 
 ModelSettings bending(bool moments = true) {

@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "dem/measure/bond_network.h"
 #include "tests/dem/examples.h"
+#include "tests/dem/sparse_equilibrium.h"
 
 namespace platen::dem {
 namespace {
@@ -115,6 +116,32 @@ TEST(equilibrium, a_moved_support_carries_the_network) {
   }
 }
 
+// What the bonds' own law says of the displaced state balances the loads, to the square of the strain.
+TEST(equilibrium, bonds_of_the_displaced_state_balance_the_loads) {
+  for (ModelSettings settings : {bonded(), beams()}) {
+    Model model(packed_box(9, 9, 9), settings);
+    Particles &p = model.particles;
+    StaticCase load = clamped_at(0);
+    load.force.assign(p.size(), {});
+    load.force[p.size() - 1] = {2e-3, 3e-3, -4e-3};
+    load.torque.assign(p.size(), {});
+    load.torque[p.size() / 2] = {1e-6, 0, 2e-6};
+    const StaticState s = solve_static(p, *model.bonds, load, exact());
+    double largest = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      largest = std::max(largest, norm(s.displacement[i]) / radius);
+      p.position[i] += s.displacement[i];
+      (*p.orientation)[i] = rotation_quaternion(s.turn[i]);
+    }
+    EXPECT_LT(largest, 1e-4);
+    const Loads answer = bond_loads(p, *model.bonds);
+    for (std::size_t i = 1; i < p.size(); ++i) {
+      ASSERT_LT(norm(answer.force[i] + load.force[i]), 1e-4 * 5e-3) << i;
+      ASSERT_LT(norm(answer.torque[i] + load.torque[i]), 1e-4 * 5e-3 * radius) << i;
+    }
+  }
+}
+
 // Some thousand spheres on springs below, prescribed above, with a few loads: three levels of the multigrid.
 StaticCase pressed(const Particles &p, double height) {
   StaticCase load;
@@ -187,6 +214,22 @@ TEST(equilibrium, bonds_and_springs_balance_the_loads) {
     }
 }
 
+TEST(equilibrium, clusters_do_not_change_the_answer) {
+  ModelSettings still = bonded();
+  still.rotation = false;
+  for (const ModelSettings &settings : {bonded(), beams(), still}) {
+    Model model(packed_box(20, 20, 30), settings);
+    const Particles &p = model.particles;
+    ASSERT_GT(p.size(), 1000u);
+    const StaticCase load = pressed(p, 30 * radius);
+    StaticSettings fine;
+    fine.tolerance = 1e-12;
+    const StaticState s = solve_static(p, *model.bonds, load, fine);
+    EXPECT_LT(largest_difference(p, s, solve_sparse(p, *model.bonds, load, fine)), 1e-8);
+    EXPECT_LT(s.iterations, 80);
+  }
+}
+
 TEST(equilibrium, any_number_of_threads_gives_the_same_bits) {
   Model model(packed_box(20, 20, 30), bonded());
   const Particles &p = model.particles;
@@ -227,6 +270,20 @@ TEST(equilibrium, loads_without_an_answer_are_told) {
   EXPECT_THROW(solve_static(model.particles, *model.bonds, load, few), NoEquilibrium);
   load.force.resize(1);
   EXPECT_THROW(solve_static(model.particles, *model.bonds, load), std::invalid_argument);
+}
+
+// Spheres without a bond stay, unless a load would carry them away.
+TEST(equilibrium, loose_spheres_stay_where_they_are) {
+  Model model(spheres({{0, 0, 0}, {2 * radius, 0, 0}, {9 * radius, 0, 0}}), bonded());
+  StaticCase load = clamped_at(row_of(model.particles, 0));
+  load.force.resize(3);
+  load.force[row_of(model.particles, 1)] = {1, 0, 0};
+  const StaticState s = solve_static(model.particles, *model.bonds, load, exact());
+  EXPECT_EQ(norm(s.displacement[row_of(model.particles, 2)]), 0);
+  EXPECT_NEAR(s.displacement[row_of(model.particles, 1)].x, 1 / (normal_stiffness * area),
+              1e-9 / (normal_stiffness * area));
+  load.force[row_of(model.particles, 2)] = {1, 0, 0};
+  EXPECT_THROW(solve_static(model.particles, *model.bonds, load), NoEquilibrium);
 }
 
 TEST(equilibrium, a_particle_is_prescribed_once) {

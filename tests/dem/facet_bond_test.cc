@@ -192,6 +192,54 @@ TEST(FacetBond, fails_in_shear_where_shear_is_more) {
   }
 }
 
+TEST(FacetBond, a_strength_factor_is_of_both_strengths_and_not_of_the_energy) {
+  Bond bond;
+  bond.geometry.strength_factor = 2;
+  EXPECT_NEAR(bond.law.ductility(bond.geometry), 3, 1e-12);
+  bond.to(8e6 * (1 - 1e-9), 0);
+  EXPECT_EQ(bond.state.damage, 0);
+  bond.to(16e6, 0);
+  EXPECT_NEAR(bond.normal(), 8e6 * std::exp(-1.0), 1e-8 * 8e6); // h = 2/(3 - 1)
+  Bond sheared;
+  sheared.geometry.strength_factor = 2;
+  sheared.to(-1e6, 30e6, 0, 100);
+  const double limit = 22e6 + 0.2 * 600e6 * -std::expm1(-1e6 / 600e6);
+  EXPECT_NEAR(sheared.shear(), limit, 1e-9 * limit);
+}
+
+// Turned as a whole, by much: what it holds turns with it, and it neither takes nor gives energy.
+TEST(FacetBond, rigid_turns_change_nothing) {
+  for (const double tension : {-30e6, 6e6}) {
+    Bond bond;
+    bond.to(tension, 15e6, 4e6, 100);
+    const double energy = bond.now.energy, lost = bond.state.dissipated, normal = bond.normal(),
+                 shear = bond.shear();
+    const Vector3 turn{0.3e-3, -0.7e-3, 0.5e-3}; // 2000 steps: 1.8 rad
+    for (int k = 0; k < 2000; ++k) {
+      const Vector3 d = examples::vector(bond.pose.distance);
+      const Triple<double> by = triple(rotate(rotation_quaternion(turn), d) - d);
+      bond.move(by, triple(turn), triple(turn));
+    }
+    EXPECT_NEAR(bond.normal(), normal, 1e-8 * std::abs(normal));
+    EXPECT_NEAR(bond.shear(), shear, 1e-8 * shear);
+    EXPECT_NEAR(bond.now.energy, energy, 1e-8 * energy);
+    EXPECT_NEAR(bond.state.dissipated, lost, 1e-8 * lost);
+  }
+}
+
+// Slip by much while the spheres turn against each other: what is dissipated is what the work leaves.
+TEST(FacetBond, slip_of_spheres_that_turn_against_each_other_dissipates_its_work) {
+  for (const double opened : {0.0, 12e6}) {
+    Bond bond;
+    bond.to(opened, 0);
+    bond.to(-80e6, 0, 0, 200);
+    const double before = bond.balance() - bond.work;
+    bond.move({0, 0, -50e6 / stiffness}, {0.5, 0.03, 0.1}, {0.4, -0.03, -0.05}, 10000);
+    bond.move({0, 0, 20e6 / stiffness}, {-0.2, 0.1, 0}, {-0.2, 0.15, 0.05}, 10000);
+    EXPECT_NEAR(bond.balance() - bond.work, before, 2e-5 * bond.work);
+  }
+}
+
 // With a share of moments: that of the parallel bond, less what damage took; without, none.
 TEST(FacetBond, moments_are_a_share_of_those_of_the_section) {
   FacetBond::Parameters p = concrete();
@@ -305,6 +353,23 @@ TEST(FacetBond, the_quick_path_is_the_law_where_nothing_is_damaged_or_slips) {
     }
   EXPECT_GT(quick, 1000);
   EXPECT_GT(slow, 1000);
+}
+
+// Sums over bonds ask for what a state holds.
+TEST(FacetBond, held_and_the_response_are_those_of_the_step) {
+  Bond bond;
+  for (const double tension : {3e6, 9e6, -20e6}) {
+    bond.to(tension, 8e6, -3e6, 100);
+    const HeldByBond<double> held =
+        bond.law.held(bond.state, bond.geometry, {bond.pose.distance, bond.pose.turn_i, bond.pose.turn_j});
+    const BondResponse<double> r = bond.law.bond_response(bond.state, bond.geometry, bond.pose);
+    EXPECT_EQ(norm(examples::vector(held.force - bond.now.force)), 0);
+    EXPECT_EQ(norm(examples::vector(r.force - bond.now.force)), 0);
+    EXPECT_EQ(norm(examples::vector(r.torque_j - bond.now.torque_j)), 0);
+    EXPECT_EQ(held.energy, bond.now.energy);
+    EXPECT_EQ(r.energy, bond.now.energy);
+    EXPECT_EQ(r.normal_force, bond.now.normal);
+  }
 }
 
 // Closed paths in opening and slip. Least and largest of what they did, over energy and stress.

@@ -78,6 +78,21 @@ TEST(failure_pattern, is_told_from_how_a_specimen_was_cut) {
   }
 }
 
+// Ends sound, the middle gone: by damage these were cones.
+TEST(failure_pattern, two_planes_that_cross_are_no_cones) {
+  for (const double angle : {25 * degree, 35 * degree})
+    for (const double thick : {4., 8.}) {
+      Cylinder c;
+      c.cut([&](const Vector3 &x) { return part_of_cross(x / radius, angle, thick); });
+      const FailureMeasures m =
+          measure_failure(c.particles, c.bonds, c.shape, {},
+                          motion_of(specimen_before(c.particles, c.shape), crossing_planes(angle, thick)));
+      EXPECT_STRNE(word_of(judge_failure(m).pattern), "cones") << angle / degree << " " << thick;
+      for (const DeadZone &zone : m.dead)
+        EXPECT_STREQ(words_of(zone.verdict), words_of(DeadZoneVerdict::wedge));
+    }
+}
+
 double &damage(FacetBond::State<double> &s) {
   return s.damage;
 }

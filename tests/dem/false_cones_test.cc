@@ -29,8 +29,8 @@ struct False {
 };
 
 void add_bands(std::vector<False> &all) {
-  for (const double angle : {18., 22., 27., 31., 35.})
-    for (const double thick : {1., 4., 8.})
+  for (const double angle : {18., 20., 22., 25., 27., 30., 31., 35.})
+    for (const double thick : {0., 1., 4., 8.})
       all.push_back({"bands that cross " + std::to_string(angle) + " " + std::to_string(thick),
                      crossing_planes(angle * degree, thick),
                      {V::wedge},

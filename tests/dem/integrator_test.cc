@@ -83,6 +83,21 @@ TEST(integrator, energy_stays_in_a_narrow_band_without_trend) {
   EXPECT_EQ(model.energy().lost(), 0);
 }
 
+TEST(integrator, the_energy_band_shrinks_with_the_square_of_the_step) {
+  const auto band = [](double share) {
+    Model model(bar(), bonded());
+    set_in_motion(model.particles);
+    const double dt = share * model.stable_step({}, 0).limit, start = model.energy().stored();
+    double most = 0;
+    for (int s = 0; s < static_cast<int>(400 / share); ++s) {
+      step(model, dt);
+      most = std::max(most, std::abs(model.energy().stored() / start - 1));
+    }
+    return most;
+  };
+  EXPECT_NEAR(band(.2) / band(.1), 4, .4); // extremes of a signal, not its error at one time
+}
+
 TEST(integrator, momentum_is_conserved_to_round_off) {
   Model model(bar(), bonded());
   set_in_motion(model.particles);

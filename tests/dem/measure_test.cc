@@ -228,6 +228,17 @@ TEST(measure, particle_stress_does_the_work_that_the_bonds_store) {
   EXPECT_NEAR(work, 2 * stored, 1e-4 * stored);
 }
 
+TEST(measure, a_pulled_row_is_under_tension_of_force_over_section) {
+  Model model(row(4, {1, 0, 0}), bonded());
+  Particles &p = model.particles;
+  deform(p, {{{1e-4, 0, 0}, {0, 0, 0}, {0, 0, 0}}}, {});
+  model.compute_forces(1e-9);
+  const auto stress = particle_stress(p, model.bonds.get(), nullptr, 1);
+  const double force = modulus * area * 1e-4, volume = 4.0 / 3.0 * pi * std::pow(radius, 3);
+  EXPECT_NEAR(stress[row_of(p, 2)][0], force * 2 * radius / volume, 2e-4 * force / area); // lengths now
+  EXPECT_NEAR(stress[row_of(p, 0)][0], force * radius / volume, 2e-4 * force / area);     // one bond only
+}
+
 // k = 1: the affine bound and the static estimate meet, E = K/3 and nu = 0. Otherwise the bound is above.
 TEST(measure, network_moduli_meet_at_equal_stiffness) {
   const Specimen specimen = packed_box(14, 14, 14);
@@ -246,6 +257,21 @@ TEST(measure, network_moduli_meet_at_equal_stiffness) {
       EXPECT_NEAR(m.young_voigt, m.young_reuss, 1e-12 * stiffness);
     }
   }
+}
+
+// Shear force of a bond under affine strain, averaged over directions, is what the formula says; a packing is
+// isotropic to a few percent.
+TEST(measure, the_affine_bound_is_the_energy_of_an_affine_strain) {
+  const Specimen specimen = packed_box(26, 26, 26);
+  ModelSettings settings = bonded();
+  settings.rotation = false;
+  Model model(specimen, settings);
+  const NetworkModuli m = network_moduli(*model.bonds, specimen.shape.volume());
+  const double nu = m.poisson_voigt, e = 1e-6;
+  // Uniaxial stress of the affine solid: strains e, -nu e, -nu e store E e^2 / 2 per volume.
+  deform(model.particles, {{{e, 0, 0}, {0, -nu * e, 0}, {0, 0, -nu * e}}}, {});
+  const double expected = .5 * m.young_voigt * e * e * specimen.shape.volume();
+  EXPECT_NEAR(bond_energy(model.particles, *model.bonds), expected, .05 * expected);
 }
 
 // Stiffnesses of affine strains along the axes from the bonds' own energies, and of those Young's moduli: no

@@ -118,7 +118,7 @@ TEST(GrowthPacking, grows_one_sphere_to_fill_its_box_or_cylinder) {
     EXPECT_NEAR(s.radius[0], 1.0, 1e-3);
     EXPECT_NEAR(s.centre[0].x, 0.0, 1e-3);
     if (shape.radius > 0) {
-      EXPECT_NEAR(s.centre[0].y, 0.0, 1e-3);
+      EXPECT_NEAR(std::hypot(s.centre[0].x, s.centre[0].y), 0.0, 1e-3);
     }
   }
 }

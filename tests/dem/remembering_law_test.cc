@@ -270,6 +270,11 @@ TEST(cohesive_plane, what_lies_in_it_turns_and_spins_along_and_slips_within_it) 
                              dot(slip, normal) * normal;
     EXPECT_LT(norm(vector(plane.carried(triple(in_plane))) - expected), 1e-13 * (norm(in_plane) + norm(slip)))
         << "turn " << n;
+    // Of a move as far as the pair travels, too.
+    m.moved = m.travelled;
+    const Vector3 travelled = vector(m.travelled),
+                  added = vector(PlaneMotion<double>(m, distance).carried(triple(Vector3{})));
+    EXPECT_LT(norm(added - (travelled - dot(travelled, normal) * normal)), 1e-14 * 3e-3) << "turn " << n;
   }
 }
 

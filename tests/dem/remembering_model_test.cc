@@ -151,6 +151,27 @@ TEST(row_order, a_block_is_sorted_when_eight_rows_stand_before_those_of_another_
   EXPECT_EQ(first_block(b), expected);
 }
 
+// Stretched until facets soften; none fails.
+TEST(row_order, rows_are_sorted_as_soon_as_they_are_damaged) {
+  ModelSettings tough = facets();
+  std::get<FacetBond::Parameters>(*tough.bond).fracture_energy = 20;
+  Model model(packed_box(12, 12, 12), tough);
+  Particles &p = model.particles;
+  const double dt = .3 * model.stable_step({}, 0).limit;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    p.velocity[i] = (2.5e-4 / (20 * dt)) * p.position[i];
+  step(model, dt, 21);
+  const Bonds &b = *model.bonds;
+  std::size_t damaged = 0;
+  for (std::size_t k = 0; k < b.size(); ++k)
+    damaged += b.damage(k) > 0;
+  EXPECT_EQ(b.failed_rows, 0u);
+  EXPECT_GT(damaged, 100u);
+  EXPECT_LT(damaged, b.size() - 100);
+  model.begin_step(dt);
+  expect_last_in_blocks(b, [&b](std::size_t k) { return b.damage(k) > 0; });
+}
+
 // By law; with rotation; with strengths of their own.
 class RememberingKernels : public testing::TestWithParam<std::tuple<LawCase, bool, bool>> {
 protected:
@@ -303,6 +324,54 @@ TEST(FacetModel, a_bond_that_would_be_brittle_is_refused_by_name_with_the_size_t
       << told;
 }
 
+// Shaken until some bonds have failed.
+TEST(CohesiveModel, interfaces_that_bend_differ_from_those_that_do_not) {
+  const auto shaken_to_pieces = [](ModelSettings settings) {
+    settings.bond_dashpot = .1;
+    Model model(packed_box(26, 26, 26), settings);
+    shake(model.particles, 1.5);
+    step(model, .5 * model.stable_step({}, 0).limit, 120);
+    EXPECT_GT(model.bonds->failed_rows, 50u);
+    EXPECT_GT(model.bonds->blocks.blocks(), 3u);
+    std::vector<double> places;
+    for (const Vector3 &x : model.particles.position)
+      places.insert(places.end(), {x.x, x.y, x.z});
+    return places;
+  };
+  EXPECT_NE(shaken_to_pieces(interfaces()), shaken_to_pieces(bending_interfaces()));
+}
+
+// Broken rows that stand apart are passed over, those that touch are not: the same specimen with its rows as
+// they were bonded feels the same forces but for the order of sums.
+TEST(YieldingModel, the_order_of_rows_changes_forces_by_round_off_alone) {
+  Model model(packed_box(15, 15, 15), yielding_bonds());
+  shake(model.particles, 2.0, 900);
+  const double dt = .3 * model.stable_step({}, 0).limit;
+  step(model, dt, 60);
+  ASSERT_GT(model.bonds->failed_rows, 200u);
+  const auto forces = [&](bool as_bonded) {
+    Model copy(packed_box(15, 15, 15), yielding_bonds());
+    set_state(copy, state_of(model));
+    if (as_bonded) {
+      std::vector<int> order(copy.bonds->size());
+      for (std::size_t k = 0; k < order.size(); ++k)
+        order[static_cast<std::size_t>(copy.bonds->record[k])] = static_cast<int>(k);
+      copy.bonds->table.permute(order);
+      copy.bonds->count_and_cut();
+    }
+    std::vector<BondBreak> breaks;
+    compute_cohesive_forces(copy.particles, *copy.bonds, InstructionSet::baseline, {}, dt, breaks);
+    return std::vector<Vector3>(copy.particles.force.begin(), copy.particles.force.end());
+  };
+  const std::vector<Vector3> ordered = forces(false), as_bonded = forces(true);
+  double largest = 0;
+  for (const Vector3 &f : as_bonded)
+    largest = std::max(largest, norm(f));
+  ASSERT_GT(largest, 0);
+  for (std::size_t i = 0; i < ordered.size(); ++i)
+    ASSERT_LE(norm(ordered[i] - as_bonded[i]), 1e-12 * largest) << "particle " << i;
+}
+
 TEST(CohesiveModel, the_interaction_range_bonds_across_gaps) {
   const double reach = 2 * radius * 1.1;
   const Specimen pair = spheres({{0, 0, 0}, {0, 0, reach * (1 - 1e-9)}, {0, reach * (1 + 1e-9), 0}});
@@ -310,6 +379,33 @@ TEST(CohesiveModel, the_interaction_range_bonds_across_gaps) {
   ASSERT_EQ(model.bonds->size(), 1u);
   EXPECT_DOUBLE_EQ(model.bonds->normal_stiffness[0], 28e9 / model.bonds->rest_length[0]);
   EXPECT_NEAR(model.bonds->rest_length[0], reach, 1e-8 * reach);
+}
+
+// A spinning body stores nothing and loses nothing.
+TEST(CohesiveModel, a_spinning_block_stores_no_energy) {
+  ModelSettings settings = interfaces();
+  settings.contact.reset();
+  Model model(packed_box(8, 8, 8), settings);
+  Particles &p = model.particles;
+  const Vector3 spin{120, -80, 200};
+  Vector3 centre;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    centre += p.position[i] / static_cast<double>(p.size());
+  const double dt = .05 * model.stable_step({}, 0).limit;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p.velocity[i] = cross(spin, p.position[i] - centre);
+    (*p.angular_velocity)[i] = spin;
+  }
+  step(model, dt, 20000);
+  const EnergyLedger e = model.energy();
+  EXPECT_LT(e.bonds, 1e-3 * e.kinetic); // the stretch of a spinning body, (w r)^2 rho / E
+  double shear = 0;
+  for (std::size_t k = 0; k < model.bonds->size(); ++k) {
+    const Triple<double> u = model.bonds->memory<CohesiveState<double>>(k).shear;
+    shear = std::max(shear, root(dot(u, u)));
+  }
+  EXPECT_LT(shear, 1e-5 * radius);
+  EXPECT_EQ(model.bonds->failed_rows, 0u);
 }
 
 } // namespace

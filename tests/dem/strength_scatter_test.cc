@@ -6,12 +6,15 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <ostream>
+#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "base/random.h"
 #include "dem/heterogeneity.h"
+#include "dem/measure/bond_network.h"
 #include "tests/dem/examples.h"
 
 namespace platen::dem {
@@ -84,6 +87,95 @@ TEST(strength_scatter, a_chain_breaks_at_its_smallest_factor) {
       EXPECT_EQ(breaks[0].mode, BondState::broken_in_tension);
     }
 }
+
+struct Law {
+  const char *name;
+  bool beams, rotation, moments;
+  double strain; // at which some bonds of a block break and most do not
+};
+void PrintTo(const Law &law, std::ostream *to) {
+  *to << law.name;
+}
+
+class ScatteredBonds : public testing::TestWithParam<Law> {
+protected:
+  static ModelSettings settings(double m) {
+    const Law law = GetParam();
+    ModelSettings s = scattered(m);
+    if (law.beams) {
+      CohesiveBeam::Parameters beam;
+      beam.tensile_strength = tensile_strength, beam.shear_strength = shear_strength;
+      s.bond = beam;
+      return s;
+    }
+    s.rotation = law.rotation;
+    parallel_bond(s).moments = law.moments;
+    return s;
+  }
+};
+
+// A chain stretched evenly: all bonds bear the same stress, E times the strain.
+TEST_P(ScatteredBonds, of_a_chain_break_at_the_smallest_factor) {
+  Model model(row(37, {1, 2, -1}), settings(6));
+  Particles &p = model.particles;
+  const Column<double> &factor = *model.bonds->strength_factor;
+  const auto weakest = std::min_element(factor.begin(), factor.end());
+  const auto stretch_to = [&](double share) { // of what the weakest bond bears
+    for (std::size_t i = 0; i < p.size(); ++i)
+      p.position[i] = (1 + share * *weakest * tensile_strength / modulus) * p.reference_position[i];
+  };
+  for (const InstructionSet set : instruction_sets_here()) {
+    std::vector<BondBreak> breaks;
+    stretch_to(1 - 1e-9); // strains of 1e-4 in positions of 1e-16
+    kernel_loads(p, *model.bonds, set, breaks);
+    EXPECT_TRUE(breaks.empty()) << name(set);
+    stretch_to(1 + 1e-9);
+    kernel_loads(p, *model.bonds, set, breaks);
+    ASSERT_EQ(breaks.size(), 1u) << name(set);
+    EXPECT_EQ(breaks[0].row, weakest - factor.begin());
+    EXPECT_EQ(breaks[0].mode, BondState::broken_in_tension);
+  }
+}
+
+// Loops and law agree on a block in which every kind of load is mixed, and forces know nothing of strengths.
+TEST_P(ScatteredBonds, break_where_the_law_says) {
+  Model model(packed_box(12, 12, 12), settings(3)), alike(packed_box(12, 12, 12), settings(3));
+  std::fill(alike.bonds->strength_factor->begin(), alike.bonds->strength_factor->end(), 1.0);
+  for (Model *one : {&model, &alike}) {
+    Random random(3);
+    for (std::size_t i = 0; i < one->particles.size(); ++i) {
+      one->particles.position[i] += GetParam().strain * radius * random.direction();
+      if (one->particles.has_rotation())
+        (*one->particles.orientation)[i] = rotation_quaternion(GetParam().strain * random.direction());
+    }
+  }
+  std::set<int> expected;
+  for (std::size_t k = 0; k < model.bonds->size(); ++k) {
+    const BondResponse<double> r = model.bonds->response(k, model.particles);
+    if (r.tension_ratio >= 1 || r.shear_ratio >= 1) expected.insert(static_cast<int>(k));
+  }
+  EXPECT_GT(expected.size(), 20u);
+  EXPECT_LT(expected.size(), model.bonds->size() / 2);
+  for (const InstructionSet set : instruction_sets_here()) {
+    std::vector<BondBreak> breaks, of_alike;
+    const Loads loads = kernel_loads(model.particles, *model.bonds, set, breaks);
+    std::set<int> found;
+    for (const BondBreak &b : breaks)
+      found.insert(b.row);
+    EXPECT_EQ(found, expected) << name(set);
+    const Loads plain = kernel_loads(alike.particles, *alike.bonds, set, of_alike);
+    EXPECT_NE(of_alike.size(), breaks.size());
+    for (std::size_t i = 0; i < loads.force.size(); ++i)
+      ASSERT_EQ(norm(loads.force[i] - plain.force[i]), 0) << name(set);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(strength_scatter, ScatteredBonds,
+                         testing::Values(Law{"parallel_bonds", false, true, true, 2e-4},
+                                         Law{"without_moments", false, true, false, 4e-4},
+                                         Law{"without_rotation", false, false, false, 6e-4},
+                                         Law{"beams", true, true, true, .5e-4}),
+                         [](const auto &of) { return std::string(of.param.name); });
 
 // The weakest of n factors has the mean n^(-1/m) (Weibull 1951); the spread of the mean of 400 chains is a
 // twentieth of that of one.
@@ -239,6 +331,59 @@ TEST(phases, in_series_share_the_force_and_break_first_at_the_interface) {
     for (const BondBreak &b : breaks)
       EXPECT_EQ(b.row, static_cast<int>(bond_between(model, 1, 2)));
   }
+}
+
+// A block torn apart with large spheres in it: the first cracks are all around them.
+TEST(phases, of_a_block_crack_at_the_interface) {
+  Specimen specimen = packed_box(14, 14, 14);
+  ModelSettings settings = breakable();
+  Phases phases;
+  for (int id = 0; id < static_cast<int>(specimen.size()); id += 4)
+    phases.aggregate_ids.push_back(id);
+  phases.aggregate = {2, 3};
+  phases.interface = {1, .3};
+  settings.phases = phases;
+  Model model(specimen, settings);
+  Particles &p = model.particles;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    p.velocity[i] = .05 * p.position[i] / radius;
+  const double dt = .8 * model.stable_step({}, 0).limit;
+  for (int s = 0; s < 5000 && model.cracks.size() < 20; ++s)
+    step(model, dt);
+  ASSERT_GE(model.cracks.size(), 20u);
+  for (const Crack &c : model.cracks)
+    EXPECT_EQ(aggregates_of_pair(p, static_cast<int>(row_of(p, c.particle_a)),
+                                 static_cast<int>(row_of(p, c.particle_b))),
+              1);
+}
+
+// All of one phase: the specimen is as if its bonds had that modulus and those strengths.
+TEST(phases, of_one_kind_alone_are_one_material) {
+  Specimen specimen = packed_box(8, 8, 8);
+  ModelSettings one = breakable(), other = breakable();
+  one.phases = Phases{};
+  one.phases->radius_above = 1e-9; // all of them
+  one.phases->aggregate = {2, 4};
+  other.bond_layout.modulus *= 2;
+  parallel_bond(other).tensile_strength *= 4, parallel_bond(other).shear_strength *= 4;
+  Model a(specimen, one), b(specimen, other);
+  EXPECT_EQ(a.stable_step({}, 0).limit, b.stable_step({}, 0).limit);
+  EXPECT_DOUBLE_EQ(network_moduli(*a.bonds, 1).young_voigt, network_moduli(*b.bonds, 1).young_voigt);
+  for (Model *m : {&a, &b})
+    for (std::size_t i = 0; i < m->particles.size(); ++i)
+      m->particles.velocity[i] = 2 * m->particles.position[i] / radius;
+  const double dt = .5 * b.stable_step({}, 0).limit;
+  for (int s = 0; s < 300; ++s)
+    step(a, dt), step(b, dt);
+  EXPECT_GT(b.broken_tension, 20);
+  EXPECT_EQ(a.broken_tension, b.broken_tension);
+  EXPECT_EQ(a.broken_shear, b.broken_shear);
+  double most = 0, apart = 0;
+  for (std::size_t i = 0; i < a.particles.size(); ++i) {
+    most = std::max(most, norm(a.particles.position[i] - a.particles.reference_position[i]));
+    apart = std::max(apart, norm(a.particles.position[i] - b.particles.position[i]));
+  }
+  EXPECT_LT(apart, 1e-9 * most); // powers of two: products round alike
 }
 
 // A broken pair touches with the stiffness of the bond that it had.

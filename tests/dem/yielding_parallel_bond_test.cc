@@ -38,6 +38,50 @@ TEST(YieldingParallelBond, is_the_parallel_bond_until_it_yields) {
   EXPECT_EQ(pair.state.broken, 0);
 }
 
+// Stresses at given strains by the straight branches, by hand: 60 MPa at e_1 = 60/48000, slopes G/3, G/12,
+// G/22.
+TEST(YieldingParallelBond, closing_yields_along_three_branches) {
+  YieldingParallelBond::Parameters p = concrete();
+  p.shear_strength = 0;
+  const double e1 = 60e6 / modulus, e2 = e1 + 3 * 50e6 / modulus, e3 = e2 + 12 * 50e6 / modulus,
+               e4 = e3 + 22 * 40e6 / modulus;
+  const double strains[] = {0.5 * e1, e1, 0.5 * (e1 + e2), e2, e3, e4};
+  const double stresses[] = {30e6, 60e6, 85e6, 110e6, 160e6, 200e6};
+  Bond pair(p);
+  double at = 0;
+  for (int k = 0; k < 6; ++k) {
+    pair.move({0, 0, -(strains[k] - at) * length});
+    at = strains[k];
+    EXPECT_NEAR(pair.stress(), -stresses[k], 1e-9 * stresses[k]) << "strain " << at;
+  }
+  pair.move({0, 0, 100e6 / modulus * length}); // unloads with the modulus
+  EXPECT_NEAR(pair.stress(), -100e6, 1e-9 * 100e6);
+  pair.move({0, 0, -50e6 / modulus * length}); // and loads again with it
+  EXPECT_NEAR(pair.stress(), -150e6, 1e-9 * 150e6);
+  pair.move({0, 0, -100e6 / modulus * length}); // 50 MPa of it elastic, the rest along the last branch
+  EXPECT_NEAR(pair.stress(), -(200e6 + 50e6 / 22), 1e-9 * 200e6);
+}
+
+// A closed path within what has yielded gives back all of its work; steps that end where branches do, so that
+// the trapezoid is exact.
+TEST(YieldingParallelBond, work_is_what_is_stored_and_what_yield_took) {
+  Bond pair(concrete());
+  const double e1 = 60e6 / modulus * length, e2 = 3 * 50e6 / modulus * length,
+               e3 = 12 * 50e6 / modulus * length;
+  for (const double by : {e1, e2, e3})
+    pair.move({0, 0, -by});
+  const double area = pair.geometry.area;
+  const double whole = area * (0.5 * 60e6 * e1 + 85e6 * e2 + 135e6 * e3);
+  EXPECT_NEAR(pair.work, whole, 1e-12 * whole);
+  EXPECT_NEAR(pair.now.energy, 0.5 * area * 160e6 * 160e6 / pair.geometry.normal_stiffness, 1e-12 * whole);
+  EXPECT_NEAR(pair.balance(), pair.work, 1e-12 * whole);
+  const double before = pair.work;
+  for (const double by : {0.2e-6, -0.1e-6, 0.3e-6, -0.4e-6}) // never deeper than it was
+    pair.move({0, 0, by});
+  EXPECT_NEAR(pair.work, before, 1e-12 * whole);
+  EXPECT_NEAR(pair.balance(), pair.work, 1e-12 * whole);
+}
+
 // Tension from the zero that yield has shifted: it breaks at the strength, not before, at once.
 TEST(YieldingParallelBond, breaks_in_tension_at_its_strength_from_the_shifted_zero) {
   Bond pair(concrete());
@@ -87,6 +131,50 @@ TEST(YieldingParallelBond, shear_strength_grows_with_compression_and_is_shared_w
   EXPECT_EQ(dot(twisted.now.torque_j, twisted.now.torque_j), 0);
 }
 
+// The contact of what has broken has the same zero, goes on yielding where the bond was, and neither pulls
+// nor bends.
+TEST(YieldingParallelBond, what_has_broken_goes_on_yielding_from_the_same_zero) {
+  YieldingParallelBond::Parameters p = concrete();
+  Bond pair(p), whole(p);
+  pair.move({0, 0, -70e6 / modulus * length});
+  whole.move({0, 0, -70e6 / modulus * length});
+  const double turn = 80e6 / (0.25 * pair.geometry.normal_stiffness) / length;
+  pair.move({}, {0, turn, 0}, {0, turn, 0});
+  ASSERT_EQ(pair.state.broken, 2);
+  for (const double strain : {80e6, 200e6, 900e6}) { // of an elastic bond
+    for (Bond *one : {&pair, &whole})
+      one->move({0, 0, length * (1 - strain / modulus) - one->pose.distance.z});
+    EXPECT_NEAR(pair.stress(), whole.stress(), 1e-9 * std::abs(whole.stress())) << strain;
+  }
+  EXPECT_EQ(pair.state.plastic, whole.state.plastic);
+  pair.move({0, 0, 0.1 * length});
+  EXPECT_EQ(dot(pair.now.force, pair.now.force), 0);
+  pair.move({}, {}, {0.1, 0.1, 0.1});
+  EXPECT_EQ(dot(pair.now.torque_i, pair.now.torque_i) + dot(pair.now.torque_j, pair.now.torque_j), 0);
+}
+
+// Force and torques that balance on both: T_i + T_j + d x F_j = 0.
+TEST(YieldingParallelBond, moments_balance_whole_and_broken) {
+  Bond pair(concrete());
+  for (int k = 0; k < 60; ++k) {
+    pair.move({2e-7, 1e-7, -4e-7}, {4e-4, -3e-4, 1e-4}, {2e-4, 3e-4, -2e-4});
+    const Triple<double> sum =
+        pair.now.torque_i + pair.now.torque_j - cross(pair.pose.distance, pair.now.force);
+    EXPECT_LT(root(dot(sum, sum)), 1e-14 * length * root(dot(pair.now.force, pair.now.force))) << k;
+  }
+  EXPECT_GT(pair.state.broken, 0);
+}
+
+// A factor scales both strengths and leaves friction alone.
+TEST(YieldingParallelBond, a_strength_factor_scales_both_strengths) {
+  Bond pair(concrete());
+  pair.geometry.strength_factor = 2;
+  pair.move({0, 0, pair.closing(17.99e6)});
+  EXPECT_EQ(pair.state.broken, 0);
+  pair.move({0, 0, pair.closing(0.02e6)});
+  EXPECT_EQ(pair.state.broken, 1);
+}
+
 class Dice {
 public:
   explicit Dice(unsigned seed) : random_(seed) {}
@@ -133,6 +221,40 @@ TEST(YieldingEnergy, is_exact_over_steps_of_any_size) {
   EXPECT_GT(in_shear, 5);
   EXPECT_GT(apart, 100);
   EXPECT_GT(slid, 100);
+}
+
+// Random motion of both spheres through yield, break, sliding and separation, turns of some 1e-6 rad a step:
+// the same but for third powers of a step, so that ten times finer steps are a hundred times nearer.
+TEST(YieldingEnergy, closes_over_random_paths_as_the_square_of_the_step) {
+  double worst[2] = {0, 0};
+  for (const int fine : {0, 1}) {
+    Dice dice(7);
+    int in_tension = 0, in_shear = 0;
+    for (int run = 0; run < 40; ++run) {
+      Bond pair(concrete());
+      pair.move({0, 0, -60e-8});
+      const double along = run % 2 ? 12e-7 : 2e-7, across = run % 2 ? 4e-7 : 3e-6;
+      double largest = 0;
+      for (int k = 0; k < 120; ++k) {
+        const auto turn = [&] {
+          return Triple<double>{4e-4 * dice.next(), 4e-4 * dice.next(), 4e-4 * dice.next()};
+        };
+        const Triple<double> by{across * dice.next(), across * dice.next(), along * dice.next()}, a = turn(),
+                                                                                                  b = turn();
+        const double kept = pair.state.dissipated, yielded = pair.plastic();
+        pair.move(by, a, b, fine ? 100 : 10);
+        EXPECT_GE(pair.state.dissipated, kept - 1e-4 * largest) << run << ", " << k;
+        EXPECT_GE(pair.plastic(), yielded) << run << ", " << k;
+        largest = std::fmax(largest, std::fmax(pair.now.energy, std::abs(pair.work)));
+      }
+      worst[fine] = std::fmax(worst[fine], std::abs(pair.work + pair.kinks_work - pair.balance()) / largest);
+      in_tension += pair.state.broken == 1, in_shear += pair.state.broken == 2;
+    }
+    EXPECT_GT(in_tension, 3);
+    EXPECT_GT(in_shear, 3);
+  }
+  EXPECT_LT(worst[0], 4e-7);
+  EXPECT_LT(worst[1], 4e-9);
 }
 
 // Pressed past the second limit, broken in shear, slid on, unloaded, loaded again and yielded further: every

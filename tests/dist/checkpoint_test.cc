@@ -95,6 +95,13 @@ TEST_F(Checkpoint, is_the_file_of_one_process) {
     SCOPED_TRACE(name);
     expect_the_same_files(set_up(name));
   }
+  dem::ModelSettings with_history = set_up("all_effects"), bare = set_up("bonds_alone");
+  with_history.bond_dashpot = 0;
+  with_history.contact = set_up("hertz_and_rolling").contact;
+  with_history.contact->damping = .2;
+  bare.rotation = false;
+  expect_the_same_files(with_history);
+  expect_the_same_files(bare);
   const auto alone = block_of(set_up("grains")), cut = cut_block(set_up("grains"), MPI_COMM_WORLD);
   run(*alone, 20, 1e-7), run(*cut, 20, 1e-7);
   expect_the_same_file(*alone, *cut, 20);

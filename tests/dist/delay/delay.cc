@@ -3,15 +3,19 @@
 // the same bytes with and without has no race between its messages.
 //   PLATEN_DELAY_US     longest delay before a call, microseconds; none: 0
 //   PLATEN_DELAY_SEED   another number, other delays; each rank has its own
+//   PLATEN_DELAY_FILE   file that gets a line per rank at MPI_Finalize: how many delays, how long in all
 // Calls of one thread at a time.
 #include <mpi.h>
 
 #include <chrono>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <thread>
 
 namespace {
+
+long long told[2] = {0, 0}; // delays, microseconds
 
 long long number_from(const char *name) {
   const char *text = std::getenv(name);
@@ -37,8 +41,25 @@ std::uint64_t next_random() {
 void delay() {
   static const long long longest = number_from("PLATEN_DELAY_US");
   if (longest <= 0) return;
-  const std::uint64_t time = next_random() % static_cast<std::uint64_t>(longest + 1);
+  const auto time = static_cast<long long>(next_random() % static_cast<std::uint64_t>(longest + 1));
+  ++told[0], told[1] += time;
   std::this_thread::sleep_for(std::chrono::microseconds(time));
+}
+
+void tell() {
+  const char *path = std::getenv("PLATEN_DELAY_FILE");
+  if (!path) return;
+  int rank = 0, ranks = 1;
+  PMPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  PMPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  if (rank > 0) PMPI_Send(told, 2, MPI_LONG_LONG, 0, 0, MPI_COMM_WORLD);
+  if (rank > 0) return;
+  std::FILE *file = std::fopen(path, "w");
+  for (int r = 0; r < ranks; ++r) {
+    if (r > 0) PMPI_Recv(told, 2, MPI_LONG_LONG, r, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    if (file) std::fprintf(file, "rank %d of %d: delays %lld delayed_us %lld\n", r, ranks, told[0], told[1]);
+  }
+  if (!file || std::fclose(file) != 0) std::fprintf(stderr, "%s: cannot be written\n", path);
 }
 
 } // namespace
@@ -59,6 +80,11 @@ void delay() {
                  (data, count, type, to, tag, comm, request))
 
 extern "C" {
+
+int MPI_Finalize() {
+  tell();
+  return PMPI_Finalize();
+}
 
 PLATEN_SEND(Send)
 PLATEN_SEND(Ssend)
