@@ -55,6 +55,26 @@ TEST_F(Bending, a_bar_breaks_in_the_middle) {
   EXPECT_FALSE(contains(log, "nan"));
 }
 
+TEST_F(Bending, threads_change_no_byte) {
+  crush("one", {}, {"-t", "1"});
+  crush("two", {}, {"-t", "2"});
+  expect_same("one", "two");
+}
+
+// Steel, a little softer than rigid: the same bar, and the same load within what a crack more or less makes.
+TEST_F(Bending, elastic_strips_bend_as_rigid_ones) {
+  const nlohmann::json rigid = summary_in(crushed_once());
+  for (const std::string motion : {"explicit", "quasi-static"}) {
+    const nlohmann::json s = crush(motion, {"Platens/Kind = deformable", "Platens/Motion = " + motion});
+    EXPECT_NEAR(s["flexural_modulus_pa"].get<double>() / rigid["flexural_modulus_pa"].get<double>(), 1, 0.01);
+    EXPECT_NEAR(s["strength_pa"].get<double>() / rigid["strength_pa"].get<double>(), 1, 0.1);
+    EXPECT_GT(s["cracks_near_midspan"], 0.8);
+    EXPECT_LT(s["energy_residual_relative"], 0.01);
+    const auto held = column(motion, "body_energy_j");
+    EXPECT_GT(*std::max_element(held.begin(), held.end()), 0);
+  }
+}
+
 // A third of its depth is cut away: less load, and all that is told of a ligament.
 TEST_F(Bending, a_notched_bar_breaks_above_its_notch) {
   const Words slow{"Loading/Axial rate = 0.02 m/s", "Loading/Stop at residual = 0.02"},
@@ -97,11 +117,11 @@ TEST_F(Bending, a_notched_bar_breaks_above_its_notch) {
   }
 }
 
-// The mouth opens as it is asked, through the fall too.
+// The mouth opens as it is asked, through the fall too, on any number of threads.
 TEST_F(Bending, a_stage_leads_a_bar_by_its_mouth) {
-  const nlohmann::json s =
-      crush("whole", {"Specimen/Notch depth = 4 mm", "Loading/Stage 1/Axial = cmod rate 20 mm/s",
-                      "Loading/Stage 1/Until = cmod 40 um", "Loading/Stop at residual = 0"});
+  const Words led{"Specimen/Notch depth = 4 mm", "Loading/Stage 1/Axial = cmod rate 20 mm/s",
+                  "Loading/Stage 1/Until = cmod 40 um", "Loading/Stop at residual = 0"};
+  const nlohmann::json s = crush("whole", led, {"-t", "1"});
   const nlohmann::json stage = s["stages"][0], control = stage["controls"][0];
   EXPECT_EQ(stage["ended_by"], "cmod");
   EXPECT_EQ(control["quantity"], "cmod rate");
@@ -110,6 +130,8 @@ TEST_F(Bending, a_stage_leads_a_bar_by_its_mouth) {
   EXPECT_EQ(s["peak_reached"], true);
   const auto mouth = column("whole", "cmod_m");
   EXPECT_NEAR(mouth.back(), 40e-6, 2e-6);
+  crush("two", led, {"-t", "2"});
+  expect_same("whole", "two");
 }
 
 TEST_F(Bending, a_bar_packed_upright_is_laid_down) {
@@ -126,15 +148,26 @@ TEST_F(Bending, a_bar_packed_upright_is_laid_down) {
     EXPECT_EQ(content_of(folder_ / "laid" / file), content_of(folder_ / "box" / file)) << file;
 }
 
-// Found once it is packed; all else in tests/apps/faulty.txt.
-TEST_F(Bending, what_its_spheres_do_not_allow_is_refused) {
-  for (const auto &[entry, says] : {std::pair{"Platens/Strip width = 0.01 mm", "without a sphere"},
-                                    {"Specimen/Notch depth = 1 mm", "has no mouth to measure"}}) {
-    const Outcome outcome = run_compress(arguments("no", {entry}), folder_);
-    EXPECT_EQ(outcome.status, 2) << entry;
+TEST_F(Bending, what_cannot_be_bent_is_refused) {
+  const auto refuse = [&](const Words &entries, const std::string &says) {
+    const Outcome outcome = run_compress(arguments("no", entries), folder_);
+    EXPECT_EQ(outcome.status, 2) << says;
     EXPECT_TRUE(contains(outcome.error, says));
     EXPECT_FALSE(fs::exists(folder_ / "no"));
-  }
+  };
+  refuse({"Platens/Span = 46 mm"}, "Platens/Span = 46 mm is too long for a bar of 0.048 m");
+  refuse({"Platens/Span = 2 mm"}, "leaves no gap between the lower strips");
+  refuse({"Platens/Strip width = 0"}, "Platens/Strip width");
+  refuse({"Platens/Attachment = glued"}, "Platens/Attachment = glued does not go with");
+  refuse({"Specimen/Ends = as packed"}, "Specimen/Ends = as packed would let a bar rock");
+  refuse({"Platens/Strip width = 0.01 mm"}, "without a sphere");
+  refuse({"Specimen/Notch depth = 11 mm"},
+         "Specimen/Notch depth = 11 mm leaves less than a tenth of the depth, 0.012 m. Allowed: up to 0.0108 "
+         "m.");
+  refuse({"Specimen/Notch depth = 1 mm"}, "Specimen/Notch depth = 1 mm has no mouth to measure");
+  refuse({"Specimen/Notch depth = 4 mm", "Specimen/Notch width = 40 mm"}, "reaches over the lower strips");
+  refuse({"Loading/Stage 1/Axial = cmod rate 20 mm/s", "Loading/Stage 1/Until = time 1 ms"},
+         "looks at the mouth of a notch, and there is none");
 }
 
 // The same bar stood on end and pressed gives its modulus; then it is bent on two spans.
@@ -245,12 +278,50 @@ TEST_F(Brazilian, a_disc_splits_along_its_loaded_diameter) {
   EXPECT_EQ(s["acoustic"]["cracks"], s["broken_tension"].get<int>() + s["broken_shear"].get<int>());
 }
 
+TEST_F(Brazilian, elastic_strips_split_as_rigid_ones) {
+  const nlohmann::json rigid = summary_in(crushed_once());
+  for (const std::string motion : {"explicit", "quasi-static"}) {
+    const nlohmann::json s = crush(motion, {"Platens/Kind = deformable", "Platens/Motion = " + motion});
+    EXPECT_NEAR(s["strength_pa"].get<double>() / rigid["strength_pa"].get<double>(), 1, 0.1) << motion;
+    EXPECT_GT(s["cracks_on_loaded_diameter"], 0.5) << motion;
+    const double most =
+        motion == "explicit" ? 0.004 : 0.02; // of explicit ones .0016 to .0019 on eight packings
+    EXPECT_LT(s["energy_residual_relative"], most) << motion;
+  }
+}
+
+// Strips without inertia come a little behind their loads: .005 to .016 of the work on twelve packings.
+TEST_F(Brazilian, the_balance_of_quasi_static_strips_closes_to_their_lag) {
+  constexpr int packings = 4;
+  double mean = 0;
+  for (int seed = 4; seed < 4 + packings; ++seed) {
+    const nlohmann::json s =
+        crush(std::to_string(seed), {"Platens/Kind = deformable", "Platens/Motion = quasi-static",
+                                     "Scene/Seed = " + std::to_string(seed)});
+    EXPECT_LT(s["energy_residual_relative"], 0.02) << "seed " << seed;
+    mean += s["energy_residual_relative"].get<double>() / packings;
+  }
+  EXPECT_LT(mean, 0.015);
+}
+
 TEST_F(Brazilian, a_disc_from_a_file_is_the_disc_that_was_packed) {
   crush("packed", {"Loading/Target strain = 0.0003"});
   crush("read",
         {"Loading/Target strain = 0.0003", "Specimen/Packing = file", "Specimen/File = packed/specimen.csv"});
   for (const char *file : {"specimen.csv", "history.csv", "cracks.csv"})
     EXPECT_EQ(content_of(folder_ / "packed" / file), content_of(folder_ / "read" / file)) << file;
+}
+
+TEST_F(Brazilian, what_cannot_be_split_is_refused) {
+  const auto refuse = [&](const std::string &entry, const std::string &says) {
+    const Outcome outcome = run_program(command("no", {entry}), folder_);
+    EXPECT_EQ(outcome.status, 2) << entry;
+    EXPECT_TRUE(contains(outcome.error, says));
+    EXPECT_FALSE(fs::exists(folder_ / "no"));
+  };
+  refuse("Specimen/Shape = box", "cannot be laid on its rim");
+  refuse("Loading/Test = tension", "does not go with platen-brazilian");
+  refuse("Platens/Strip width = -1 mm", "Platens/Strip width");
 }
 
 // Elastic disc between strips: at the centre sigma_x = 2P/(pi D t) in tension, sigma_z = 3 times that in

@@ -1,5 +1,5 @@
 // What platen-compress refuses, and how: the exit status, one message that names the place, and nothing
-// written. Faults of a scene alone are in tests/apps/faulty.txt.
+// written. Most faults of a scene alone are in tests/apps/faulty.txt.
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -49,6 +49,10 @@ protected:
     }
     EXPECT_EQ(names(), before) << bad.says.front();
   }
+  void refuse_scene(const std::string &lines, const Words &says) {
+    scene("bad.prm", lines);
+    refuse({{"bad.prm"}, says});
+  }
   // The crushed cylinder with entries, by command line.
   void refuse_entries(const Words &entries, const Words &says, const Words &options = {}) {
     refuse({with(with({scene_}, set(entries)), options), says});
@@ -61,21 +65,54 @@ protected:
 
 // By file and line where the scene has it; what is found once spheres are packed and bonded is told so too.
 TEST_F(Errors, faulty_scenes_are_refused_by_file_and_line) {
-  for (const auto &[lines, says] : std::vector<std::pair<std::string, Words>>{
-           {"subsection Bond\n  set Modulos = 3 GPa\nend\n",
-            {"bad.prm:3: error: Bond/Modulos is not a parameter. Did you mean \"Bond/Modulus\""}},
-           {"subsection Specimen\n  set Sphere radius = 11 mm\nend\n",
-            {"bad.prm:3", "do not fit into Specimen/"}},
-           {"subsection Loading\n  set Start strain = 0.006\nend\n",
-            {"bad.prm:3", "Loading/Start strain = 0.006 breaks", "bonds at once"}}}) {
-    scene("bad.prm", lines);
-    refuse({{"bad.prm"}, says});
-  }
+  refuse_scene("subsection Bond\n  set Modulos = 3 GPa\nend\n",
+               {"bad.prm:3: error: Bond/Modulos is not a parameter. Did you mean \"Bond/Modulus\""});
+  refuse_scene("subsection Bonds\nend\n", {"bad.prm:2: error: ", "Bond"});
+  refuse_scene("subsection Bond\n  set Modulus = 3 GPa\n  set Modulus = 4 GPa\nend\n",
+               {"bad.prm:4: error: Bond/Modulus = 4 GPa is set twice", "bad.prm:3"});
+  refuse_scene("subsection Effects\n  set Bond = paralel bond\nend\n",
+               {"bad.prm:3", "paralel", "parallel bond"});
+  refuse_scene("subsection Specimen\n  set Sphere radius = -1 mm\nend\n",
+               {"bad.prm:3", "Specimen/Sphere radius = -1 mm"});
+  refuse_scene("subsection Bond\n  set Modulus = 36 GPa m\nend\n",
+               {"bad.prm:3", "Bond/Modulus", "a pressure (Pa)"});
+  refuse_scene("subsection Specimen\n  set Sphere radius = 11 mm\nend\n",
+               {"bad.prm:3", "do not fit into Specimen/"});
+  refuse_scene("subsection Platens\n  set Friction dynamic = 0.4\nend\n",
+               {"bad.prm:3", "above the static friction, 0.3"});
+  refuse_scene("subsection Loading\n  set Test = tension\nend\n",
+               {"bad.prm:3", "needs Platens/Attachment = glued"});
+  refuse_scene("subsection Loading\n  set Start strain = 0.008\nend\n",
+               {"bad.prm:3", "Loading/Start strain = 0.008", "is not below Loading/Target strain = 0.008"});
+  refuse_scene("subsection Loading\n  set Start strain = 0.006\nend\n",
+               {"bad.prm:3", "Loading/Start strain = 0.006 breaks", "bonds at once"});
+  refuse_scene(
+      "subsection Effects\n  set Gravity = on\nend\nsubsection Loading\n"
+      "  set Start strain = 0.001\nend\n",
+      {"bad.prm:6", "does not go with gravity. Allowed: 0."});
+  refuse_scene(
+      "subsection Effects\n  set Bond = yielding parallel bond\nend\nsubsection Loading\n"
+      "  set Start strain = 0.001\nend\n",
+      {"bad.prm:6", "needs bonds without a memory: theirs answer to the whole path. Allowed: 0."});
+  refuse_scene("subsection Loading\n  set Test = hydrostatic\nend\n",
+               {"bad.prm:3", "needs Loading/Confinement = particles, sleeve"});
+  refuse_scene("subsection Loading\n  set Confinement = particles\nend\n",
+               {"bad.prm:3", "needs Loading/Confining pressure > 0"});
+  refuse_scene("subsection Loading\n  set Unload at = 0.003, 0.002\nend\n", {"bad.prm:3", "does not ascend"});
+  refuse_scene("subsection Loading\n  set Unload at = 0.05\nend\n",
+               {"bad.prm:3", "goes beyond Loading/Target strain = 0.008"});
+  refuse_scene("subsection Expect\n  set strenth_pa = 1 ... 2\nend\n",
+               {"bad.prm:3", "strenth_pa", "strength_pa"});
 }
 
 TEST_F(Errors, bad_command_lines_are_refused) {
   refuse({{}, {"no scene is given"}});
   refuse({{"nowhere.prm"}, {"nowhere.prm: error: cannot be read"}});
+  refuse({{scene_, "--glue"}, {"--glue is not an option"}});
+  refuse({{scene_, "another.prm"}, {"one argument too many"}});
+  refuse({{scene_, "-t", "0"}, {"--threads = 0"}});
+  refuse({{scene_, "-t", "two"}, {"--threads = two"}});
+  refuse({{scene_, "-s", "Bond/Modulus"}, {"--set 1: error: \"Bond/Modulus\" sets nothing"}});
   refuse(
       {{scene_, "-s", "Bond/Modulus = 4 GPa", "-s", "Bond/Gap = 4 s"}, {"--set 2: error: Bond/Gap = 4 s"}});
   refuse({{scene_, "--resume", "--overwrite"}, {"exclude each other"}});
@@ -220,6 +257,10 @@ TEST_F(Errors, what_the_packed_specimen_decides_is_refused_by_entry) {
         {"Loading/Stage 1/Axial = rate", "Loading/Stage 1/Until = stress 5 MPa",
          "Loading/Stage 2/Axial = rate", "Loading/Stage 2/Until = strain change 1e-5"}})
     EXPECT_EQ(run(entries, {"--dry-run"}).status, 0) << entries.front();
+}
+
+TEST_F(Errors, a_stage_that_waits_for_a_stress_is_no_test_of_no_length) {
+  crush("waits", {"Loading/Stage 1/Axial = rate", "Loading/Stage 1/Until = stress 5 MPa"});
 }
 
 // Counted before a sphere is packed or an element made: in less time and memory than either would take.
@@ -373,6 +414,25 @@ TEST_F(Errors, a_dry_run_tells_what_would_run_and_writes_nothing) {
         "time step ", "2/omega", "steps to the target strain", "estimate: ", "ms a step", "memory "})
     EXPECT_TRUE(contains(outcome.out, part));
   EXPECT_EQ(names(), before);
+}
+
+TEST_F(Errors, printed_parameters_are_a_scene_again) {
+  // As .prm and as JSON; what the print of either prints is the same text: nothing is lost on the way.
+  const Words options{"--print-parameters", "-s", "Bond/Modulus = 12.345678901234567 GPa"};
+  for (const bool json : {false, true}) {
+    Words first{scene_}, second{json ? "printed.json" : "printed.prm", "--print-parameters"};
+    first.insert(first.end(), options.begin(), options.end());
+    if (json) first.push_back("--json"), second.push_back("--json");
+    const Outcome once = run_compress(first, folder_);
+    ASSERT_EQ(once.status, 0) << once.error;
+    EXPECT_TRUE(contains(once.out, "12.345678901234567 GPa"));
+    put(folder_ / second.front(), once.out);
+    const Outcome again = run_compress(second, folder_);
+    EXPECT_EQ(again.status, 0) << again.error;
+    EXPECT_EQ(again.out, once.out);
+    const Outcome runs = run_compress({second.front(), "--dry-run"}, folder_);
+    EXPECT_EQ(runs.status, 0) << runs.error;
+  }
 }
 
 TEST_F(Errors, an_expected_number_that_does_not_come_out_is_status_one) {

@@ -97,17 +97,7 @@ TEST_F(EffectsOff, moments_cost_columns_of_no_bond_but_strength_of_all) {
   EXPECT_LT(without["energy_residual_relative"], 0.01);
 }
 
-class Interfaces : public Crushed {
-protected:
-  static Words concrete(const Words &more = {}) {
-    return with(
-        {"Effects/Bond = elasto damage plastic", "Bond/Modulus = 28 GPa", "Bond/Poisson ratio = 0.2",
-         "Bond/Tensile strength = 5 MPa", "Bond/Shear strength = 16 MPa", "Bond/Friction static = 0.9",
-         "Bond/Friction dynamic = 0.25", "Bond/Compression limits = 20 MPa, 45 MPa, 70 MPa",
-         "Bond/Compression slopes = 3, 12, 22", "Contact/Friction = 0.25"},
-        more);
-  }
-};
+class Interfaces : public Crushed {};
 
 // With moments: weaker by the stress of the skin, the same ledger and columns.
 TEST_F(Interfaces, yield_soften_and_balance_their_energy_and_with_moments_have_the_same_columns) {

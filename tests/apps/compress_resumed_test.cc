@@ -200,18 +200,30 @@ protected:
   const fs::path whole_ = folder_ / "whole.platen";
 };
 
-// Of each part one; tests/coupling/wrong_state_test.cc tries every block of the test itself.
 TEST_F(WrongState, a_number_that_cannot_be_is_status_two_with_its_place_and_nothing_is_written) {
   const auto results = results_in(folder_ / "run");
   const CheckpointReader good(whole_);
   const std::size_t spheres = good.find("test/specimen/particles/mass")->rows,
                     bonds = good.find("test/specimen/bonds/records/state")->rows;
+  const std::string row = "0 ... " + std::to_string(spheres - 1);
   for (const Number &number : std::vector<Number>{
+           {"test/specimen/bonds/rows/first", 0, 1000000, row},
+           {"test/specimen/bonds/rows/first", 0, -1, row},
+           {"test/specimen/bonds/rows/second", 3, -1, row},
            {"test/specimen/bonds/rows/record", 2, 1000000, "0 ... " + std::to_string(bonds - 1)},
+           {"test/specimen/bonds/records/state", 1, 7, "0 ... 3"},
+           {"test/specimen/bonds/rows/normal_stiffness", 1, -1, ">= 0"},
+           {"test/specimen/particles/mass", 5, -1, "> 0 kg"},
            {"test/specimen/particles/mass", 5, std::nan(""), "> 0 kg"},
+           {"test/specimen/particles/radius", 0, 0, "> 0 m"},
+           {"test/specimen/particles/inertia", 1, -1, "> 0 kg m^2"},
+           {"test/specimen/particles/position", 4, std::numeric_limits<double>::infinity(), "finite numbers"},
            {"test/specimen/particles/orientation", 4, 1e6, "a row of length 1"},
-           {"test/bottom/contacts/rows/particle", 0, -1, "0 ... " + std::to_string(spheres - 1)},
+           {"test/specimen/particles/id", 1, 1000000, row},
+           {"test/bottom/contacts/rows/particle", 0, -1, row},
+           {"test/bottom/body/rotation", 0, 2, "a row of length 1"},
            {"test/program/stage", 0, 1000000, "0 ... 0"},
+           {"test/time_step", 0, 0, "> 0 s"},
            {"results/samples/intact_bonds", 0, -1, "0 ... "},
            {"files/frames", 0, -1, "0 ... 2147483647"},
        }) {

@@ -27,6 +27,15 @@ inline Words set(const Words &entries) {
   return options;
 }
 
+// Concrete of elasto-damage-plastic interfaces.
+inline Words concrete(const Words &more = {}) {
+  return with({"Effects/Bond = elasto damage plastic", "Bond/Modulus = 28 GPa", "Bond/Poisson ratio = 0.2",
+               "Bond/Tensile strength = 5 MPa", "Bond/Shear strength = 16 MPa", "Bond/Friction static = 0.9",
+               "Bond/Friction dynamic = 0.25", "Bond/Compression limits = 20 MPa, 45 MPa, 70 MPa",
+               "Bond/Compression slopes = 3, 12, 22", "Contact/Friction = 0.25"},
+              more);
+}
+
 class Crushed : public ScratchFolder {
 protected:
   enum class Frames { off, as_in_the_scene };

@@ -151,6 +151,17 @@ TEST_F(Hollow, a_section_that_changes_with_height_is_told_with_its_range_and_not
   EXPECT_FALSE(fs::exists(folder_ / "net"));
 }
 
+// Its own section is what a specimen is judged by: nothing changes where it is filled.
+TEST_F(Exact, the_net_section_of_a_specimen_that_fills_its_shape_is_the_nominal_one) {
+  write("lattice.csv", cubic_box(), cubic_lattice());
+  const Words begun{"Loading/Start strain = 1e-4"};
+  press("nominal", begun);
+  const nlohmann::json s = press("net", with(begun, {"Specimen/Section = net"}));
+  EXPECT_EQ(s["section"]["over"], "nominal");
+  EXPECT_NEAR(s["section"]["filled_least"].get<double>(), 1, 1e-9);
+  EXPECT_EQ(content_of(folder_ / "nominal/history.csv"), content_of(folder_ / "net/history.csv"));
+}
+
 // All bonds along the load bear the same, those of one plane half the strength: they part together.
 TEST_F(Exact, a_simple_cubic_lattice_tears_where_and_when_its_weakest_plane_does) {
   write("lattice.csv", cubic_box(), cubic_lattice());

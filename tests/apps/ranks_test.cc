@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <set>
 #include <sstream>
 
 #include "apps/on_ranks.h"
@@ -157,6 +158,33 @@ TEST(RanksOfUnlikeMachines, all_go_by_the_weakest_instruction_set_and_say_so) {
   EXPECT_EQ(common_instruction_set(InstructionSet::avx512, &alike, true).set, InstructionSet::avx512);
   EXPECT_EQ(common_instruction_set(InstructionSet::avx512, &alike, true).note, "");
   EXPECT_EQ(common_instruction_set(InstructionSet::avx512, nullptr, true).note, "");
+}
+
+class RankCheckpoints : public OnRanks {};
+
+// They fall between rows and frames, and no rank has gathered them.
+TEST_F(RankCheckpoints, are_those_of_one_process_and_any_number_of_ranks_goes_on_from_them) {
+  const std::vector<std::string> slowly{
+      "-s", "Loading/Axial rate = 0.3 m/s", "-s", "Loading/Target strain = 0.003", "-s", "Output/Every = 20",
+      "-s", "Output/Fields every = 400",    "-s", "Checkpoint/Every = 313"};
+  std::vector<std::string> resumed = slowly;
+  resumed.emplace_back("--resume");
+  const fs::path one = whole(slowly);
+  EXPECT_GT(lines_in(one / "cracks.csv"), 100);
+  run_on(3, "three", slowly);
+  EXPECT_EQ(unlike(one, "three"), "");
+  std::set<std::string> files;
+  for (const auto &file : fs::directory_iterator(one / "checkpoint"))
+    files.insert(file.path().filename().string());
+  ASSERT_EQ(files.size(), 2u);
+  // The last one has the end of its run, which is gathered; the one before does not.
+  fs::remove(folder_ / "three/checkpoint" / *files.rbegin());
+  fs::copy(folder_ / "three", folder_ / "onward", fs::copy_options::recursive);
+  run_on(2, "three", resumed);
+  const Outcome onward = run(crush("onward", resumed));
+  EXPECT_EQ(onward.status, 0) << onward.error;
+  for (const char *name : {"three", "onward"})
+    EXPECT_EQ(difference(results_in(one), results_in(folder_ / name)), "") << name;
 }
 
 class BadDays : public OnRanks {

@@ -201,16 +201,51 @@ TEST_F(SceneFaults, so_many_includes_are_refused_at_once) {
   EXPECT_TRUE(contains(said_of(folder_ / "all.prm", {}, "pack"), ":501: error: include 15.prm: more than"));
 }
 
-// All else of them is as in files.
 TEST_F(SceneFaults, bad_overrides_are_refused_by_their_number) {
   for (const auto &[overrides, says] : std::vector<std::pair<Entries, const char *>>{
            {{"Contact/Friction = 0.2", "Contact/Frictoin = 0.3"},
             "command line, --set 2: error: Contact/Frictoin is not a parameter. Did you mean "
             "\"Contact/Friction\""},
+           {{"Platens/Friction = 0.3"},
+            "Platens/Friction is not a parameter. Did you mean \"Platens/Friction static\", "
+            "\"Platens/Friction "
+            "dynamic\" "
+            "or \"Platens/Friction law\"?"},
+           {{"Loading/Rate = 0.3"}, "Did you mean \"Loading/Axial rate\"?"},
+           {{"Bond/strength = 3 MPa"}, "Did you mean \"Bond/Tensile strength\", \"Bond/Shear strength\""},
+           {{"Specimen/Radus = 3 mm"}, "Did you mean \"Specimen/Radius\""},
+           {{"Loading/Stage 21/Axial = hold"},
+            "Loading/Stage 21 is not a section. The last one is Loading/Stage 20."},
+           {{"Loading/Stage 0/Axial = hold"}, "The last one is Loading/Stage 20."},
+           {{"Specimen/Radius = 25 m"},
+            "--set 1: error: Specimen/Radius = 25 m gives a width that is 5e+03 times Specimen/Height = 10 "
+            "mm. "
+            "Allowed: "
+            "0.005 ... 200."},
+           {{"Bond/Modulus = 48 Gpa"}, "has the unit \"Gpa\", which is not known. Did you mean \"GPa\"?"},
            {{"Contact/Friction = 9"},
             "command line, --set 1: error: Contact/Friction = 9 is out of range. Allowed: 0 ... 5"},
            {{"Contact/Friction"}, "command line, --set 1: error: \"Contact/Friction\" sets nothing."},
+           {{"Contcat/Friction = 0.3"}, "Contcat is not a section. Did you mean \"Contact\"?"},
+           {{"Friction = 0.3"}, "Friction is not a parameter. Did you mean \"Contact/Friction\""},
+           {{"Bond/Modulus = 40 m"},
+            "Bond/Modulus = 40 m has the unit \"m\", which is not that of a pressure"},
+           {{"Platens/Kind = deformable", "Integration/Scheme = tchamwa wielgosz"},
+            "--set 1: error: Platens/Kind = deformable needs Integration/Scheme = velocity verlet. Allowed: "
+            "rigid."},
+           {{"Platens/Kind = deformable", "Platens/Pad thickness = 0.1 mm"},
+            "Platens/Pad modulus is not set: the pad has to have one."},
+           {{"Platens/Kind = deformable", "Platens/Pad thickness = 1 m"},
+            "--set 2: error: Platens/Pad thickness = 1 m leaves nothing of the platen. Allowed: 0 ... "},
            {{"Platens/Top/Mesh file = none.msh"}, "--set 1: error: Platens/Top/Mesh file = none.msh"},
+           {{"Platens/Top/Seat = spherical", "Integration/Scheme = tchamwa wielgosz"},
+            "--set 1: error: Platens/Top/Seat = spherical needs Integration/Scheme = velocity verlet. "
+            "Allowed: "
+            "fixed."},
+           {{"Platens/Degree = 3"},
+            "--set 1: error: Platens/Degree = 3 is out of range. Allowed: whole, 1 ... 2"},
+           {{"Loading/Test = tension"},
+            "--set 1: error: Loading/Test = tension needs Platens/Attachment = glued"},
            {{"Scene/Title = a # b"}, "--set 1: error: Scene/Title = a # b holds a \"#\""},
            {{"= 3"}, "--set 1: error: "},
            {{""}, "--set 1: error: \"\" sets nothing."}})
@@ -259,6 +294,16 @@ TEST_F(SceneFaults, no_bond_is_unbreakable_by_oversight) {
     EXPECT_TRUE(contains(said_with({missing, "Calibrate/Target 1 = strength_pa: 20 MPa"}, "calibrate"),
                          says + ": Effects/Bond is "));
   }
+}
+
+TEST_F(SceneFaults, facets_need_their_fracture_energy) {
+  const Entries facet{"Effects/Bond = facet"};
+  EXPECT_TRUE(contains(said_with(facet), "Bond/Fracture energy is not set: Effects/Bond is facet."));
+  Entries whole = facet;
+  whole.emplace_back("Bond/Fracture energy = 20 J/m2");
+  EXPECT_EQ(said_with(whole), "");
+  whole.insert(whole.end(), {"Pair test/Displacement = 1 um", "Integration/Damping = 0"});
+  EXPECT_EQ(said_with(whole, "bonds"), "");
 }
 
 TEST_F(SceneFaults, what_is_unbreakable_is_written_so_and_read_again) {

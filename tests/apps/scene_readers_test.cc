@@ -106,6 +106,18 @@ TEST_F(Readers, a_program_reads_nothing_that_it_does_not_print) {
   }
 }
 
+// A study is of runs of platen-compress, and asks its own section what they are.
+TEST_F(Readers, a_study_does_not_look_into_the_sections_of_others) {
+  int files = 0;
+  for (const auto &file : fs::directory_iterator(std::string(PLATEN_SOURCE) + "/apps/study")) {
+    const std::string text = content_of(file.path());
+    for (const char *member : {"pair_test", ".calibrate.", "bar_test"})
+      EXPECT_EQ(text.find(member), std::string::npos) << file.path() << ": " << member;
+    ++files;
+  }
+  EXPECT_GE(files, 8);
+}
+
 TEST_F(Readers, parameters_are_printed_by_program_section_and_key) {
   const auto entries_of = [](const std::string &text) {
     std::istringstream lines(text);

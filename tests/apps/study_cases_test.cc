@@ -43,6 +43,14 @@ TEST(StudyPlan, sizes_of_the_thesis_are_six_cases) {
   EXPECT_EQ(last.general.seed, 9u);
 }
 
+TEST(StudyPlan, without_lists_the_sizes_are_those_of_the_thesis) {
+  const StudyPlan plan =
+      plan_of(StudyKind::size, {no_radii, "Specimen/Radius = 25 mm", "Specimen/Height = 80 mm"});
+  ASSERT_EQ(plan.cases.size(), 4u);
+  EXPECT_EQ(plan.cases[0].labels[0], 0.0005);
+  EXPECT_EQ(plan.cases[3].labels[0], 0.00125);
+}
+
 StudyPlan vary(const Words &entries) {
   return plan_of(StudyKind::vary, with({no_radii}, entries));
 }

@@ -267,6 +267,9 @@ TEST_F(Study, of_friction_has_a_row_for_each_run_and_compares_their_strengths) {
     }
   }
   EXPECT_EQ(lines_in(folder_ / "a/costs.csv"), 7);
+
+  ASSERT_EQ(run("one", small, "friction").status, 0);
+  expect_same_tables("one", "a");
 }
 
 TEST_F(Study, of_one_run_gives_it_all_threads) {
@@ -275,6 +278,11 @@ TEST_F(Study, of_one_run_gives_it_all_threads) {
   ASSERT_EQ(run("a", single, "friction").status, 0);
   EXPECT_EQ(summary_in(folder_ / "a/runs/friction_0.3_slenderness_1_seed_3")["threads"],
             std::min(3u, std::thread::hardware_concurrency())); // no more than there are cores
+}
+
+// Killed without a word again and again, at once taken up.
+TEST_F(Study, of_friction_killed_at_random_comes_to_the_same_table) {
+  expect_the_same_however_often_killed(with(small, set({"Study/Slenderness list = 1"})), "friction");
 }
 
 // A fall by 2 % is a peak; damage is measured at a fall to 0.8, which may be beyond the target strain.
@@ -288,7 +296,9 @@ TEST(StudyTables, a_run_has_peaked_where_its_summary_says_so) {
 TEST_F(Study, of_friction_compares_nothing_that_never_peaked) {
   const Words pressed_little = with(two, set({no_radii, "Loading/Target strain = 2e-4"}));
   expect(0, "grease_seed_3: it reached no peak", "a", pressed_little, "friction");
-  EXPECT_FALSE(contains(content_of(folder_ / "a/run.log"), "nan"));
+  const std::string log = content_of(folder_ / "a/run.log");
+  EXPECT_TRUE(contains(log, "grease_seed_3: it reached no peak"));
+  EXPECT_FALSE(contains(log, "nan"));
   EXPECT_EQ(json("a")["cases"][0]["without_peak"], 1);
   EXPECT_TRUE(json("a")["cases"][0]["strength_pa"]["mean"].is_null());
   EXPECT_TRUE(json("a")["comparisons"][0]["mean"].is_null());

@@ -4,7 +4,10 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <chrono>
+#include <random>
 #include <sstream>
+#include <thread>
 
 #include "apps/program.h"
 #include "apps/programs.h"
@@ -103,6 +106,33 @@ protected:
   void expect_same_tables(const std::string &a, const std::string &b) const {
     EXPECT_EQ(table(a), table(b));
     EXPECT_EQ(content_of(folder_ / a / "study.json"), content_of(folder_ / b / "study.json"));
+  }
+  // Killed again and again, at once taken up: the runs that were under way end on their own, and the next
+  // study waits for them.
+  void expect_the_same_however_often_killed(const Words &options, const std::string &kind) const {
+    const auto start = std::chrono::steady_clock::now();
+    ASSERT_EQ(run("whole", options, kind).status, 0);
+    const double whole = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    std::mt19937 engine(7);
+    std::uniform_real_distribution<double> wait(0.01 * whole, 0.3 * whole); // s
+    const auto begun = [&] { return fs::exists(folder_ / "killed/study.json"); };
+    int kills = 0, status = -1;
+    for (int round = 0; round < 10 && status != 0; ++round) {
+      const Words more{"-t", "2", begun() ? "--resume" : "--overwrite"};
+      Program program(command("killed", with(options, more), kind), folder_);
+      // The first two are killed at any time, the others once there is something to take up: a busy machine
+      // may need longer to start than the longest wait.
+      while (round >= 2 && !begun() && program.running())
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      std::this_thread::sleep_for(std::chrono::duration<double>(wait(engine)));
+      if (program.running()) program.send(SIGKILL), ++kills;
+      status = program.wait();
+      ASSERT_TRUE(status == 0 || status == -SIGKILL) << content_of(folder_ / "error.txt");
+    }
+    EXPECT_GE(kills, 2);
+    ASSERT_TRUE(begun());
+    expect(0, "", "killed", with(options, {"--resume"}), kind);
+    expect_same_tables("killed", "whole");
   }
 };
 

@@ -4,9 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cmath>
-#include <random>
 #include <thread>
 
 #include "apps/output/seed_statistics.h"
@@ -106,31 +104,8 @@ TEST_F(Study, a_killed_one_leaves_no_run_behind_and_goes_on) {
   EXPECT_EQ(table("killed"), table("whole"));
 }
 
-// Killed again and again, at once taken up: the runs that were under way end on their own, and the next study
-// waits for them.
 TEST_F(Study, one_killed_at_random_comes_to_the_same_table) {
-  const auto start = std::chrono::steady_clock::now();
-  ASSERT_EQ(run("whole", {}).status, 0);
-  const double whole = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::mt19937 engine(7);
-  std::uniform_real_distribution<double> wait(0.01 * whole, 0.3 * whole); // s
-  const auto begun = [&] { return fs::exists(folder_ / "killed/study.json"); };
-  int kills = 0, status = -1;
-  for (int round = 0; round < 10 && status != 0; ++round) {
-    Program program(command("killed", {"-t", "2", begun() ? "--resume" : "--overwrite"}), folder_);
-    // The first two are killed at any time, the others once there is something to take up: a busy machine may
-    // need longer to start than the longest wait.
-    while (round >= 2 && !begun() && program.running())
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    std::this_thread::sleep_for(std::chrono::duration<double>(wait(engine)));
-    if (program.running()) program.send(SIGKILL), ++kills;
-    status = program.wait();
-    ASSERT_TRUE(status == 0 || status == -SIGKILL) << content_of(folder_ / "error.txt");
-  }
-  EXPECT_GE(kills, 2);
-  ASSERT_TRUE(begun());
-  expect(0, "", "killed", {"--resume"});
-  expect_same_tables("killed", "whole");
+  expect_the_same_however_often_killed({}, "size");
 }
 
 TEST_F(Study, a_damaged_checkpoint_and_a_lost_summary_cost_only_that_run) {

@@ -126,6 +126,18 @@ class Advancing(InFolder):
             seen = numpy.array([row[name] for row in rows])
             self.assertEqual(seen.tobytes(), column[first:].astype(float).tobytes(), name)
 
+    def test_what_a_callback_raises_comes_out(self):
+        experiment = self.experiment()
+
+        def stop(row):
+            raise KeyError("enough")
+
+        experiment.on_sample = stop
+        with self.assertRaises(KeyError):
+            experiment.run()
+        experiment.on_sample = None
+        self.assertTrue(experiment.advance(samples=1), "it can go on")
+
     def test_control_c_interrupts_and_can_be_gone_on_from(self):
         experiment = self.experiment()
         experiment.on_sample = lambda row: signal.raise_signal(signal.SIGINT)
@@ -196,6 +208,12 @@ class Changing(InFolder):
             experiment.run()
             self.assertEqual(differing(self.folder / f"whole {smooth}", self.folder / f"run {smooth}"), [], smooth)
 
+    def test_a_surface_without_friction_gets_none(self):
+        experiment = self.experiment(more={"Platens/Friction static": 0, "Platens/Friction dynamic": 0})
+        experiment.advance(samples=3)
+        with self.assertRaisesRegex(platen.InputError, "without friction"):
+            experiment.change({"Platens/Friction static": 0.2})
+
     def test_a_changed_run_is_not_resumed_by_the_program(self):
         values = dict(SMALL, **{"Checkpoint/Every": 50})
         experiment = self.experiment(more=values)
@@ -262,11 +280,12 @@ class BadInput(InFolder):
                 ({"set": {"Bond/Modulu": 1}}, {"entry": "Bond/Modulus"}, "Did you mean"),
                 ({"set": {"Specimen/Radius": "3 MPa"}}, {"entry": "Specimen/Radius"}, ""), ({"scene": "no such scene.prm"}, {}, "no such scene.prm"),
                 ({"scene": scene}, {"entry": "Bond/Gap", "file": str(scene), "line": 3}, ""), ({"set": {"Specimen/Height": "200 m"}}, {}, ""),
-                ({"set": {**SMALL, "Integration/Time step": "1 s"}}, {}, "")):
+                ({"set": {**SMALL, "Integration/Time step": "1 s"}}, {}, ""),
+                *(({"threads": threads}, {}, "") for threads in (0, -1, 100000, 1.5, True))):
             with self.assertRaises(platen.InputError, msg=options) as caught:
                 platen.Experiment(**{"scene": CRUSHED, "output": self.folder / "run", **options})
             self.assertEqual({name: getattr(caught.exception, name) for name in said}, said)
-            self.assertIn(reason, str(caught.exception))
+            self.assertIn(reason, caught.exception.reason if said else str(caught.exception))
             self.assertFalse((self.folder / "run" / "history.csv").exists())
 
     def test_a_folder_that_holds_a_run(self):
