@@ -12,7 +12,6 @@ namespace platen::fem {
 namespace {
 
 using Id = int;
-constexpr int most = Words::most;
 
 enum Kind { line_kind = 1, quad_kind = 3, hexahedron_kind = 5, point_kind = 15 };
 
@@ -75,7 +74,7 @@ void read_singly(Words &words, Contents &mesh) {
     words.whole("number of an element", 0);
     const int kind = words.whole("type of an element", 1);
     for (int tag = 0, tags = words.whole("number of tags", 0); tag < tags; ++tag)
-      words.whole("tag of an element", tag < 2 ? 0 : -most);
+      words.whole("tag of an element", tag < 2 ? 0 : -Words::most);
     add_element(words, kind, mesh);
   }
 }
@@ -87,7 +86,7 @@ void read_in_blocks(Words &words, Contents &mesh) {
   words.whole("largest number of a node", 0);
   for (int block = 0; block < node_blocks; ++block) {
     const int dimension = words.whole("dimension of an entity", 0, 3);
-    words.whole("number of an entity", -most);
+    words.whole("number of an entity", -Words::most);
     const int parametric = words.whole("whether coordinates are parametric", 0, 1);
     const int count = words.whole("number of nodes in the block", 0, nodes);
     for (int k = 0; k < count; ++k)
@@ -104,7 +103,7 @@ void read_in_blocks(Words &words, Contents &mesh) {
   words.whole("largest number of an element", 0);
   for (int block = 0; block < blocks; ++block) {
     words.whole("dimension of an entity", 0, 3);
-    words.whole("number of an entity", -most);
+    words.whole("number of an entity", -Words::most);
     const int kind = words.whole("type of an element", 1);
     const int count = words.whole("number of elements in the block", 0, elements);
     for (int k = 0; k < count; ++k) {
@@ -123,11 +122,11 @@ void read_entities(Words &words) {
     of_dimension = words.whole("number of entities", 0);
   for (int dimension = 0; dimension < 4; ++dimension)
     for (int k = 0; k < count[static_cast<std::size_t>(dimension)]; ++k) {
-      words.whole("number of an entity", -most);
+      words.whole("number of an entity", -Words::most);
       words.numbers("bound of an entity", dimension == 0 ? 3 : 6);
       for (int of = 0; of < (dimension == 0 ? 1 : 2); ++of) // physical groups, bounding entities
         for (int tag = 0, tags = words.whole("number of tags", 0); tag < tags; ++tag)
-          words.whole("tag of an entity", of == 0 ? 0 : -most);
+          words.whole("tag of an entity", of == 0 ? 0 : -Words::most);
     }
   words.expect("$EndEntities");
 }

@@ -14,12 +14,6 @@
 
 namespace platen::fem {
 
-namespace {
-
-constexpr std::size_t cell_grain = 64;
-
-} // namespace
-
 FaceCorners HyperelasticSolid::face_places(const BoundaryFace &face,
                                            const std::vector<Vector3> &displacement) const {
   FaceCorners place;

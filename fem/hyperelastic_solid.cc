@@ -9,12 +9,6 @@
 #include "base/require.h"
 
 namespace platen::fem {
-namespace {
-
-constexpr std::size_t cell_grain = 64; // per part of a loop: some tens of microseconds
-
-} // namespace
-
 HyperelasticSolid::HyperelasticSolid(Grid grid, const Rubber &material, const std::vector<int> &contact_tags)
     : grid_(std::move(grid)), material_(material), mesh_(read_mesh(grid_)) {
   require(material.density > 0 && std::isfinite(material.density), "solid: density must be positive");

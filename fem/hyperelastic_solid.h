@@ -124,6 +124,8 @@ public:
   void describe(Archive &archive);
 
 private:
+  static constexpr std::size_t cell_grain = 64; // per part of a loop: some tens of microseconds
+
   struct PrescribedMotion {
     std::vector<int> nodes;
     std::array<bool, 3> components;

@@ -49,7 +49,7 @@ void ensure_mpi() {
 
 using Index = dealii::types::global_dof_index;
 
-Index row_of(std::size_t node, std::size_t k) {
+Index equation_of(std::size_t node, std::size_t k) {
   return static_cast<Index>(3 * node + k);
 }
 
@@ -63,9 +63,9 @@ void for_entries(const NodeMatrix &a, const Fixed &fixed, const Add &add) {
         for (std::size_t c = 0; c < 3; ++c) {
           const double value = a.at(b)[r + 3 * c];
           if (fixed[i][r] || fixed[j][c]) {
-            if (i == j && r == c) add(row_of(i, r), row_of(j, c), value);
+            if (i == j && r == c) add(equation_of(i, r), equation_of(j, c), value);
           } else {
-            add(row_of(i, r), row_of(j, c), value);
+            add(equation_of(i, r), equation_of(j, c), value);
           }
         }
     }
@@ -207,7 +207,8 @@ void StaticEquations::solve(const NodeMatrix &stiffness, const std::vector<Vecto
   dealii::Vector<double> right(n), solution(n);
   for (std::size_t i = 0; i < x.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
-      if (!fixed[i][k]) right[row_of(i, k)] = load[i][k] - brought[i][k], solution[row_of(i, k)] = x[i][k];
+      if (!fixed[i][k])
+        right[equation_of(i, k)] = load[i][k] - brought[i][k], solution[equation_of(i, k)] = x[i][k];
   if (right.l2_norm() == 0) {
     solution = 0;
   } else if (parts_->kind == LinearSolver::direct) {
@@ -217,7 +218,7 @@ void StaticEquations::solve(const NodeMatrix &stiffness, const std::vector<Vecto
   }
   for (std::size_t i = 0; i < x.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
-      if (!fixed[i][k]) x[i][k] = solution[row_of(i, k)];
+      if (!fixed[i][k]) x[i][k] = solution[equation_of(i, k)];
 }
 
 LinearSolver StaticEquations::kind() const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -13,8 +14,6 @@
 namespace platen::coupling {
 
 namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // Smallest overlap over radius for which the springs of Hertz are computed, as between grains; and the factor
 // on the deepest overlap.
@@ -38,8 +37,8 @@ void check(const SurfaceContact &p, bool rotation) {
           "surface contact: slip length must be positive");
   require(p.weakening.by != By::velocity || p.weakening.slip_velocity > 0,
           "surface contact: slip velocity must be positive");
-  require(p.damping >= 0 && p.damping < infinite, "surface contact: damping must not be negative");
-  require(p.seat_modulus >= 0 && p.seat_modulus < infinite,
+  require(p.damping >= 0 && std::isfinite(p.damping), "surface contact: damping must not be negative");
+  require(p.seat_modulus >= 0 && std::isfinite(p.seat_modulus),
           "surface contact: seat modulus must not be negative");
   require(p.seat_modulus == 0 || rotation, "surface contact: seats need particles that rotate");
   require(p.skin > 0, "surface contact: skin must be positive");
@@ -69,7 +68,7 @@ void require_ascending(const StateSource &state, const std::string &block) {
 ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSurface &body,
                            const SurfaceContact &parameters)
     : parameters_(parameters),
-      smallest_radius_(infinite),
+      smallest_radius_(std::numeric_limits<double>::infinity()),
       search_(body.surface(), parameters.skin, parameters.instruction_set) {
   check(parameters, particles.has_rotation());
   particle_.allow(row_of(particles.size()));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -25,10 +26,14 @@ std::map<std::string, std::string> blocks_in(const fs::path &checkpoint) {
   return blocks;
 }
 
-std::map<std::string, std::string> checkpoints_in(const fs::path &folder) {
+std::set<fs::path> checkpoints_of(const fs::path &run) {
+  return {fs::directory_iterator(run / "checkpoint"), fs::directory_iterator()};
+}
+
+std::map<std::string, std::string> checkpoints_in(const fs::path &run) {
   std::map<std::string, std::string> all;
-  for (const auto &file : fs::directory_iterator(folder / "checkpoint"))
-    all.merge(blocks_in(file.path()));
+  for (const fs::path &file : checkpoints_of(run))
+    all.merge(blocks_in(file));
   return all;
 }
 
@@ -89,6 +94,12 @@ std::string OnRanks::said() const {
 std::string OnRanks::unlike(const fs::path &one, const std::string &other) const {
   return difference(results_in(folder_ / one), results_in(folder_ / other)) +
          difference(checkpoints_in(folder_ / one), checkpoints_in(folder_ / other));
+}
+
+std::string OnRanks::unlike_at_end(const fs::path &one, const std::string &other) const {
+  const auto last = [](const fs::path &run) { return blocks_in(*checkpoints_of(run).rbegin()); };
+  return difference(results_in(folder_ / one), results_in(folder_ / other)) +
+         difference(last(folder_ / one), last(folder_ / other));
 }
 
 pid_t process_of_rank(pid_t mpirun, int rank) {

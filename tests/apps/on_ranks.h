@@ -41,6 +41,8 @@ protected:
   // Files and blocks of checkpoints in which two runs differ, but for what tells time and machine; "" where
   // they agree.
   std::string unlike(const std::filesystem::path &one, const std::string &other) const;
+  // The same of results and the last checkpoint: after a stop, the one before may be that of the stop.
+  std::string unlike_at_end(const std::filesystem::path &one, const std::string &other) const;
 };
 
 // Of the processes that mpirun has started; throws where there is none.

@@ -207,7 +207,7 @@ protected:
   // Resumed on so many ranks, it ends as the run that nobody disturbed.
   void expect_resumes(const std::string &name, int ranks) const {
     run_on(ranks, name, {"--resume"});
-    EXPECT_EQ(unlike(whole(), name), "") << "resumed on " << ranks;
+    EXPECT_EQ(unlike_at_end(whole(), name), "") << "resumed on " << ranks;
   }
   // Step of the newest checkpoint; -1 without one.
   long newest_step(const std::string &name) const {
