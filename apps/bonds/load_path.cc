@@ -12,7 +12,8 @@ namespace {
 // A load that is put on at once overshoots, to twice its step where nothing damps it: a step takes
 // up less than half of the strength that is left, but not less than the accuracy of the breaking load.
 constexpr double share_of_reserve = .4, finest_step = 2e-4;
-constexpr double first_step = 1e-3; // of the largest load, until a bond's utilisation tells how far it may go
+constexpr double share_of_first_step =
+    1e-3; // of the largest load, until a bond's utilisation tells how far it may go
 
 // Turning points over the largest load, tension positive: two spheres go through a cycle; three only stand on
 // their plate.
@@ -80,7 +81,7 @@ private:
   double reach() const {
     const double used = std::max(now_.tension_ratio, now_.shear_ratio);
     if (!careful_ || now_.intact < bonds_) return std::numeric_limits<double>::infinity();
-    if (at_ == 0) return first_step;
+    if (at_ == 0) return share_of_first_step;
     if (!(used > 0)) return std::abs(at_); // nothing is near its strength: at most doubled
     return std::max(share_of_reserve * (1 - used), finest_step) * std::abs(at_) / used;
   }

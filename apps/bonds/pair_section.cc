@@ -43,14 +43,14 @@ void declare_pair_test(Parameters &parameters, Scene &scene) {
 }
 
 // Lists that are empty hold the one value of the scene.
-void complete(Parameters & /*parameters*/, Scene &scene) {
+void complete_pair(Parameters & /*parameters*/, Scene &scene) {
   PairTest &pair = scene.own<PairTest>();
   const double modulus = scene.model.bond_layout.modulus;
   if (pair.moduli.empty() && !std::isnan(modulus)) pair.moduli = {modulus};
   if (pair.stiffness_ratios.empty()) pair.stiffness_ratios = {scene.bond.number("stiffness_ratio")};
 }
 
-bool gives(const Scene &scene, const Parameters & /*parameters*/, const std::string &path) {
+bool pair_gives(const Scene &scene, const Parameters & /*parameters*/, const std::string &path) {
   return path == "Bond/Modulus" && !pair_test_of(scene).moduli.empty();
 }
 
@@ -134,9 +134,9 @@ Program pair_program() {
   p.purpose = "Tests bonds between two or three spheres: loads, stiffness, strength, energies.";
   p.section = "Pair test";
   p.declare = declare_pair_test;
-  p.complete = complete;
+  p.complete = complete_pair;
   p.check = check_pair_test;
-  p.gives = gives;
+  p.gives = pair_gives;
   return p;
 }
 

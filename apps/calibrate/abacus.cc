@@ -7,7 +7,7 @@
 namespace platen::apps {
 namespace {
 
-constexpr const char *columns =
+constexpr const char *columns_of_abacus =
     "seed,bond_modulus_pa,stiffness_ratio,radius_multiplier,bond_poisson,youngs_modulus_gauge_pa,"
     "youngs_modulus_platen_pa,poisson_ratio,voigt_modulus_pa,voigt_poisson,reuss_modulus_pa,reuss_poisson";
 
@@ -42,7 +42,7 @@ Json make_abacus(const Scene &scene, const OutputPaths &paths, Trials &trials, R
       if (linear) asked.back().choice[FreeParameter::modulus] = scene.model.bond_layout.modulus;
     }
   const std::vector<TrialResult> results = trials(asked);
-  WholeTable table(paths.folder / "abacus.csv", cells_of(columns));
+  WholeTable table(paths.folder / "abacus.csv", cells_of(columns_of_abacus));
   Json rows = Json::array();
   log.info("  {:>10} {:>7} {:>10} {:>7} {:>12} {:>9} {:>9} {:>12} {:>9}", "bond, GPa", "ks/kn", "multiplier",
            "bond nu", "E, GPa", "+-", "nu", "Voigt, GPa", "Voigt nu");

@@ -187,7 +187,7 @@ FreedEntry completed(Parameters &parameters, FreedEntry freed, const std::string
   return freed;
 }
 
-void complete(Parameters &parameters, Scene &scene) {
+void complete_calibrate(Parameters &parameters, Scene &scene) {
   Calibrate &c = scene.own<Calibrate>();
   complete_targets(parameters, scene);
   for (std::size_t k = 0; k < c.entries.size(); ++k)
@@ -283,7 +283,7 @@ void check_calibrate(const SceneCheck &check) {
 
 // A search for strengths begins with those of the scene; static solves break no bond. Targets have rates of
 // their own, or are checked for it.
-bool gives(const Scene &scene, const Parameters & /*parameters*/, const std::string &path) {
+bool calibrate_gives(const Scene &scene, const Parameters & /*parameters*/, const std::string &path) {
   const Calibrate &c = calibrate_of(scene);
   if (path == "Bond/Tensile strength") return !c.searches_strengths();
   if (path == "Bond/Modulus") return c.mode == CalibrateMode::abacus && !c.moduli.empty();
@@ -302,9 +302,9 @@ Program calibrate_program() {
   p.purpose = "Calibrates bonds and other parameters on figures of any tests.";
   p.section = "Calibrate";
   p.declare = declare_calibrate;
-  p.complete = complete;
+  p.complete = complete_calibrate;
   p.check = check_calibrate;
-  p.gives = gives;
+  p.gives = calibrate_gives;
   p.uses = uses;
   return p;
 }

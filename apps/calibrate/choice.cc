@@ -20,7 +20,7 @@ constexpr double largest_friction = 1.0471975511965976; // rad; of an angle that
 std::vector<ParameterFacts> known_facts() {
   using Parameter = FreeParameter;
   const ScreenUnit plain, gigapascal{1e9, " GPa", " Pa"}, megapascal{1e6, " MPa", " Pa"},
-      degrees{pi / 180, " degree", " rad"};
+      degrees{degree, " degree", " rad"};
   return {{Parameter::modulus, "modulus", "", "Bond/Modulus", "bond_modulus_pa", "bond modulus", gigapascal,
            true, true, factor, long_step, true},
           {Parameter::stiffness_ratio, "stiffness ratio", "stiffness_ratio", "Bond/Stiffness ratio",

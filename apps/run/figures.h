@@ -100,7 +100,6 @@ struct FigureList {
   }
 };
 constexpr auto everywhere = [](const auto &) { return true; };
-constexpr double degree = pi / 180;
 
 inline Json list_of(const Vector3 &v) {
   return Json::array({v.x, v.y, v.z});

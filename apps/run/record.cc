@@ -105,7 +105,6 @@ void Record::finish() {
 // 2015, figure 11).
 void Record::write_bond_stress() const {
   constexpr int classes = 9;
-  constexpr double degree = pi / 180;
   const double axial = 0.5 * (test_.stress_top() + test_.stress_bottom());
   WholeTable table(paths_.bond_stress(), {"angle_low_deg", "angle_high_deg", "bonds", "pressed_bonds",
                                           "mean_stress_pa", "mean_pressed_stress_pa", "pressed_over_axial"});

@@ -11,11 +11,7 @@
 #include "dem/measure/gauge.h"
 
 namespace platen::apps {
-namespace {
-
-constexpr double degree = pi / 180;
-
-} // namespace
+namespace {} // namespace
 
 std::size_t bytes_per_bond(const dem::Model &model) {
   if (!model.bonds) return 0;

@@ -22,7 +22,7 @@ std::string first_entry(const Parameters &parameters, const std::string &section
 
 // A platen that says nothing itself takes what stands for all.
 std::string blamed(const Parameters &parameters, const std::string &entry) {
-  const std::string common = "Platens" + entry.substr(entry.rfind('/'));
+  const std::string common = "Platens/" + last_name(entry);
   const bool of_side = entry.rfind("Platens/", 0) == 0 && std::count(entry.begin(), entry.end(), '/') == 2;
   return of_side && !parameters.at(entry).changed() && parameters.find(common) != nullptr ? common : entry;
 }
@@ -39,8 +39,7 @@ void SceneCheck::test() const {
   for (const coupling::Fault &fault :
        coupling::faults(settings_without_files(scene_), known ? &shape : nullptr)) {
     const std::string entry = blamed(parameters_, parameters_.entry_of(fault.member)),
-                      section = entry.substr(0, entry.rfind('/')),
-                      reason = parameters_.with_entries(fault.reason);
+                      section = section_of(entry), reason = parameters_.with_entries(fault.reason);
     const bool of_stage = section.rfind("Loading/Stage ", 0) == 0;
     if (of_stage && !parameters_.at(entry).changed())
       refuse(first_entry(parameters_, section), "is of a stage whose " + entry + " " + reason);

@@ -7,10 +7,6 @@
 namespace platen::apps {
 namespace {
 
-std::string section_of(const std::string &path) {
-  return path.substr(0, path.rfind('/'));
-}
-
 // "a", "a or b", "a, b or c"
 std::string alternatives(const std::vector<std::string> &words) {
   std::string text;
@@ -38,8 +34,7 @@ bool has_word(const Parameters &parameters, const std::string &path, const std::
 }
 
 Declared &Declared::only_if(const std::string &path, const std::vector<std::string> &words) {
-  if (section_of(path) == section_of(entry_->path))
-    remark(path.substr(path.rfind('/') + 1) + " = " + joined(words));
+  if (section_of(path) == section_of(entry_->path)) remark(last_name(path) + " = " + joined(words));
   entry_->idle.push_back([path, words](const Situation &s) {
     return has_word(s.parameters, path, words) ? "" : path + " is not " + alternatives(words);
   });

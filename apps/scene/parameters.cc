@@ -156,7 +156,7 @@ bool Parameters::lacks_end(const std::string &path) const {
 }
 
 void Parameters::open(const Assignment &section, const FileText &file) {
-  const std::string &path = section.section, outer = path.substr(0, path.rfind('/'));
+  const std::string &path = section.section, outer = section_of(path);
   declare_written(path);
   if (is_section(path) || is_foreign(path)) return;
   const std::string message = section.origin.text() + ": error: " + shown(path);
@@ -171,8 +171,8 @@ void Parameters::open(const Assignment &section, const FileText &file) {
     if (&before == &section) break;
     if (before.kind == Assignment::Kind::section && before.section == outer) opened = before.origin;
   }
-  throw EntryError(message + " is not a section. Is the \"end\" of section " +
-                       outer.substr(outer.rfind('/') + 1) + " (" + opened.text() + ") missing before it?",
+  throw EntryError(message + " is not a section. Is the \"end\" of section " + last_name(outer) + " (" +
+                       opened.text() + ") missing before it?",
                    section.origin, path);
 }
 

@@ -50,7 +50,7 @@ const Bounds *bounds_of(const std::string &key, const std::string &unit) {
 
 Quantity::Quantity(const std::string &path, const std::string &unit, const Range &declared)
     : unit_(unit), range_(declared) {
-  const std::string key = path.substr(path.rfind('/') + 1);
+  const std::string key = last_name(path);
   // Loads and strengths begin with the kilopascals of soils, moduli with those of foams; a metre is a large
   // specimen, a sphere or a sheet of that size is none. Who means it writes the unit.
   constexpr double least_stress = 1e3, least_modulus = 1e5, most_length = 1; // Pa, Pa, m

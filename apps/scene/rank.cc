@@ -11,7 +11,7 @@ namespace platen::apps {
 namespace {
 
 // A number that a launcher leaves in the environment; `otherwise` where there is none.
-int number_of(const char *name, int otherwise) {
+int number_in_environment(const char *name, int otherwise) {
   const char *text = std::getenv(name);
   return text == nullptr ? otherwise : std::atoi(text);
 }
@@ -20,8 +20,10 @@ int number_of(const char *name, int otherwise) {
 Rank launched() {
   Rank rank;
   const bool of_hydra = std::getenv("MPI_LOCALNRANKS") != nullptr;
-  rank.of = number_of("OMPI_COMM_WORLD_SIZE", of_hydra ? number_of("PMI_SIZE", 1) : 1);
-  rank.number = number_of("OMPI_COMM_WORLD_RANK", of_hydra ? number_of("PMI_RANK", 0) : 0);
+  rank.of =
+      number_in_environment("OMPI_COMM_WORLD_SIZE", of_hydra ? number_in_environment("PMI_SIZE", 1) : 1);
+  rank.number =
+      number_in_environment("OMPI_COMM_WORLD_RANK", of_hydra ? number_in_environment("PMI_RANK", 0) : 0);
   return rank;
 }
 
@@ -33,7 +35,8 @@ Rank &this_rank() {
 }
 
 bool launched_with_others() {
-  const bool of_srun = std::getenv("PMIX_RANK") != nullptr && number_of("SLURM_STEP_NUM_TASKS", 1) > 1;
+  const bool of_srun =
+      std::getenv("PMIX_RANK") != nullptr && number_in_environment("SLURM_STEP_NUM_TASKS", 1) > 1;
   return launched().of > 1 || of_srun;
 }
 

@@ -25,10 +25,6 @@ struct Node {
   std::vector<Node> sections;
 };
 
-std::string key_of(const Entry &entry) {
-  return entry.path.substr(entry.path.rfind('/') + 1);
-}
-
 Node tree_of(const std::vector<Entry> &entries) {
   Node root;
   for (const Entry &entry : entries) {
@@ -63,11 +59,11 @@ void write(const Node &node, std::size_t depth, bool documented, std::ostream &o
   const std::string indent(2 * depth, ' ');
   std::size_t longest_key = 0, longest_value = 0;
   for (const Entry *entry : node.entries) {
-    longest_key = std::max(longest_key, key_of(*entry).size());
+    longest_key = std::max(longest_key, last_name(entry->path).size());
     longest_value = std::max(longest_value, entry->text.size());
   }
   for (const Entry *entry : node.entries) {
-    const std::string key = key_of(*entry);
+    const std::string key = last_name(entry->path);
     if (documented && entry != node.entries.front()) out << '\n';
     if (documented) write_documentation(*entry, indent, out);
     out << indent << "set " << key << std::string(longest_key - key.size(), ' ') << " = " << entry->text;
@@ -98,9 +94,9 @@ std::string nearest_part(const Parameters &parameters, const std::string &part) 
     names.push_back(entry.path);
   const std::string nearest = nearest_word(part, names);
   if (!nearest.empty()) return nearest;
-  const std::string key = part.substr(part.rfind('/') + 1);
+  const std::string key = last_name(part);
   for (const std::string &name : names) // the right name in another place, or in none
-    if (edit_distance(name.substr(name.rfind('/') + 1), key) <= 1) return name;
+    if (edit_distance(last_name(name), key) <= 1) return name;
   return "";
 }
 
@@ -108,8 +104,7 @@ std::string nearest_part(const Parameters &parameters, const std::string &part) 
 std::vector<Entry> part_of(const Parameters &parameters, const std::string &part) {
   std::vector<Entry> entries = parameters.unwritten(part);
   for (const Entry &entry : parameters.entries()) {
-    const bool inside = entry.path.rfind(part + "/", 0) == 0,
-               itself = entry.path.substr(0, entry.path.rfind('/')) == part;
+    const bool inside = entry.path.rfind(part + "/", 0) == 0, itself = section_of(entry.path) == part;
     const bool told = entry.changed() || entry.number <= 1 || itself;
     if (entry.path == part || (inside && told)) entries.push_back(entry);
   }

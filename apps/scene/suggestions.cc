@@ -22,15 +22,6 @@ constexpr std::pair<const char *, const char *> replaced[] = {
     {"Calibrate/Triaxial strength", in_a_cell},
     {"Calibrate/Confining pressure", in_a_cell}};
 
-std::string section_of(const std::string &path) {
-  const auto slash = path.rfind('/');
-  return slash == std::string::npos ? "" : path.substr(0, slash);
-}
-
-std::string last_name(const std::string &path) {
-  return path.substr(path.rfind('/') + 1);
-}
-
 std::string within(const std::string &section, const std::string &name) {
   return section.empty() ? name : section + "/" + name;
 }

@@ -93,6 +93,15 @@ int edit_distance(const std::string &a, const std::string &b) {
   return d[n][m];
 }
 
+std::string section_of(const std::string &path) {
+  const auto slash = path.rfind('/');
+  return slash == std::string::npos ? "" : path.substr(0, slash);
+}
+
+std::string last_name(const std::string &path) {
+  return path.substr(path.rfind('/') + 1);
+}
+
 std::string nearest_word(const std::string &word, const std::vector<std::string> &candidates) {
   constexpr std::size_t longest = 200; // more is no slip of the pen, and the distance costs its square
   if (word.size() > longest) return "";

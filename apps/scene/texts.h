@@ -21,6 +21,11 @@ void check_characters(const std::string &text);
 // where there is none.
 std::string unseen_in(const std::string &part, const std::string &whole);
 
+// Of the path of an entry or a section, "Loading/Stage 1/Until": the section that it stands in, "" where
+// there is none, and its own name.
+std::string section_of(const std::string &path);
+std::string last_name(const std::string &path);
+
 // The candidate nearest to a word, by letters inserted, dropped, changed or swapped, regardless of case; ""
 // where none is near enough to be meant.
 std::string nearest_word(const std::string &word, const std::vector<std::string> &candidates);

@@ -30,7 +30,7 @@ const std::map<std::string, Unit> &units() {
       unit.si *= factor;
       return unit;
     };
-    const Unit degree = times(pi / 180, radian), inch = times(0.0254, metre), hour = times(3600, second);
+    const Unit degrees = times(degree, radian), inch = times(0.0254, metre), hour = times(3600, second);
     std::map<std::string, Unit> table{{"%", {0.01, {}}},
                                       {"percent", {0.01, {}}},
                                       {"min", times(60, second)},
@@ -44,10 +44,10 @@ const std::map<std::string, Unit> &units() {
                                       {"inches", inch},
                                       {"ft", times(12, inch)},
                                       {"Hz", {1, {0, 0, -1}}},
-                                      {"°", degree},
-                                      {"deg", degree},
-                                      {"degree", degree},
-                                      {"degrees", degree}};
+                                      {"°", degrees},
+                                      {"deg", degrees},
+                                      {"degree", degrees},
+                                      {"degrees", degrees}};
     const std::pair<const char *, double> prefixes[] = {
         {"", 1},     {"p", 1e-12}, {"n", 1e-9}, {"u", 1e-6}, {"µ", 1e-6}, {"m", 1e-3}, {"c", 1e-2},
         {"d", 1e-1}, {"h", 1e2},   {"k", 1e3},  {"M", 1e6},  {"G", 1e9},  {"T", 1e12}};

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double percent = 0.01;
 constexpr Measure priced[] = {Measure::strength, Measure::modulus};
-constexpr const char *numbers[] = {"energy_residual_relative", "kinetic_to_internal_max", "steps"};
+constexpr const char *figures_of_run[] = {"energy_residual_relative", "kinetic_to_internal_max", "steps"};
 constexpr double bounds[] = {0.05, 0.02, 0.01, 0.001};
 
 const char *word(Measure measure) {
@@ -113,8 +113,8 @@ std::vector<ParameterErrors> errors_of(const StudyPlan &plan, const Outcomes &ou
         const RunOutcome &run = outcomes[value.of_case][seed];
         for (const Measure m : all_measures)
           errors.errors[static_cast<std::size_t>(m)].add(error(run, references[seed], m));
-        for (std::size_t k = 0; k < std::size(numbers); ++k)
-          errors.numbers[k].add(number_in(run.summary, numbers[k]));
+        for (std::size_t k = 0; k < std::size(figures_of_run); ++k)
+          errors.numbers[k].add(number_in(run.summary, figures_of_run[k]));
         errors.seconds.add(number_in(run.summary, "wall_seconds"));
       }
       of.values.push_back(std::move(errors));
@@ -134,7 +134,7 @@ void write_errors(const std::filesystem::path &csv, const StudyPlan &plan, const
   std::vector<std::string> columns{"knob", "value", "case", "seed", "status"};
   for (const Measure m : all_measures)
     columns.push_back(std::string(word(m)) + "_error");
-  columns.insert(columns.end(), std::begin(numbers), std::end(numbers));
+  columns.insert(columns.end(), std::begin(figures_of_run), std::end(figures_of_run));
   WholeTable rows(csv, columns);
   for (const StudiedParameter &parameter : plan.parameters)
     for (const StudiedParameter::Value &value : parameter.values)
@@ -144,7 +144,7 @@ void write_errors(const std::filesystem::path &csv, const StudyPlan &plan, const
         Json cells{parameter.name, value.text, plan.cases[value.of_case].name, plan.seeds[seed], word(run)};
         for (const Measure m : all_measures)
           cells.push_back(error(run, reference, m));
-        for (const char *key : numbers)
+        for (const char *key : figures_of_run)
           cells.push_back(number_in(run.summary, key));
         write_row(rows, cells);
       }
@@ -181,8 +181,8 @@ Json json_of(const StudyPlan &plan, const std::vector<ParameterErrors> &errors) 
                  {"case", plan.cases[parameter.values[v].of_case].name}};
       for (const Measure m : all_measures)
         value["errors"][word(m)] = with_root(of.of(m));
-      for (std::size_t n = 0; n < std::size(numbers); ++n)
-        value[numbers[n]] = with_root(of.numbers[n]);
+      for (std::size_t n = 0; n < std::size(figures_of_run); ++n)
+        value[figures_of_run[n]] = with_root(of.numbers[n]);
       one["values"].push_back(std::move(value));
     }
     all.push_back(std::move(one));

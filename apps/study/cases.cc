@@ -106,7 +106,7 @@ StudyPlan plan_rate(const Scene &scene) {
 
 // "friction_static", "confining_pressure_pa": the key, with its SI unit.
 std::string column_of(const std::string &path, const std::string &unit) {
-  return as_name(path.substr(path.rfind('/') + 1)) + (unit.empty() || unit == "1" ? "" : "_" + as_name(unit));
+  return as_name(last_name(path)) + (unit.empty() || unit == "1" ? "" : "_" + as_name(unit));
 }
 
 double number_of(const std::string &text, const std::string &unit) {

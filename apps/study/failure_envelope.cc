@@ -17,7 +17,7 @@ namespace {
 constexpr const char *pressure_column = "confining_pressure_pa";
 
 // Keys of study.json and columns of envelope.csv.
-constexpr std::pair<const char *, double FailureLine::*> numbers[] = {
+constexpr std::pair<const char *, double FailureLine::*> numbers_of_line[] = {
     {"pressure_low_pa", &FailureLine::pressure_low},
     {"pressure_high_pa", &FailureLine::pressure_high},
     {"cohesion_pa", &FailureLine::cohesion},
@@ -174,7 +174,7 @@ std::vector<FailureEnvelope> failure_envelopes(const StudyPlan &plan,
 Json json_of(const StudyPlan &plan, const std::vector<FailureEnvelope> &envelopes) {
   const auto add = [](const FailureLine &line, Json &json) {
     json["runs"] = line.runs;
-    for (const auto &[key, member] : numbers)
+    for (const auto &[key, member] : numbers_of_line)
       json[key] = line.*member;
     if (!line.reason.empty()) json["reason"] = line.reason;
   };
@@ -203,7 +203,7 @@ void write_envelopes(const std::filesystem::path &csv, const StudyPlan &plan, co
   for (const std::string &column : plan.varied)
     if (column != pressure_column) keys.push_back(column);
   keys.emplace_back("runs");
-  for (const auto &[key, member] : numbers)
+  for (const auto &[key, member] : numbers_of_line)
     keys.emplace_back(key);
   keys.emplace_back("reason");
   write_table(csv, keys, envelopes);

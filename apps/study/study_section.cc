@@ -153,12 +153,12 @@ void declare_study(Parameters &parameters, Scene &scene) {
   declare_target(parameters, study.target);
 }
 
-void complete(Parameters &parameters, Scene &scene) {
+void complete_study(Parameters &parameters, Scene &scene) {
   scene.own<Study>().target.over_scene = resolved_path(parameters.at("Study/Target/Over scene"));
 }
 
 // Whether a kind of study reads the list is found when its cases are read.
-bool gives(const Scene &scene, const Parameters &parameters, const std::string &path) {
+bool study_gives(const Scene &scene, const Parameters &parameters, const std::string &path) {
   const Study &study = study_of(scene);
   const auto set = [](const Entry &entry) {
     return entry.path.rfind("Study/Target/", 0) == 0 && entry.changed();
@@ -254,9 +254,9 @@ Program study_program() {
   p.kinds = {study_words.begin(), study_words.end()};
   p.section = "Study";
   p.declare = declare_study;
-  p.complete = complete;
+  p.complete = complete_study;
   p.check = check_study;
-  p.gives = gives;
+  p.gives = study_gives;
   return p;
 }
 

@@ -14,7 +14,7 @@ namespace platen::apps {
 namespace {
 
 // Numbers of summary.json that do not depend on the machine's speed; a member of an object after "/".
-const std::vector<std::string> figures = cells_of(
+const std::vector<std::string> figures_of_study = cells_of(
     "particles,bonds,packing_fraction,coordination_number,strength_pa,strain_at_peak_platen,"
     "strain_at_peak_gauge,youngs_modulus_gauge_pa,youngs_modulus_platen_pa,poisson_ratio,broken_tension,"
     "broken_shear,end_damage_top,end_damage_bottom,middle_damage,end_spread,cone_top/half_angle_deg,"
@@ -24,8 +24,8 @@ const std::vector<std::string> figures = cells_of(
     "acoustic/b_before,acoustic/b_after,kinetic_to_internal_max,wave_crossings_to_peak,"
     "energy_residual_relative");
 // And those that do.
-const std::vector<std::string> costs{"steps", "wall_seconds", "setup_seconds", "particle_steps_per_second",
-                                     "peak_memory_bytes"};
+const std::vector<std::string> costs_of_study{"steps", "wall_seconds", "setup_seconds",
+                                              "particle_steps_per_second", "peak_memory_bytes"};
 constexpr const char *pattern = "pattern"; // how the specimen failed, a word
 
 std::vector<std::string> columns_of(const StudyPlan &plan, const std::vector<std::string> &numbers) {
@@ -34,7 +34,7 @@ std::vector<std::string> columns_of(const StudyPlan &plan, const std::vector<std
   columns.insert(columns.end(), plan.varied.begin(), plan.varied.end());
   columns.insert(columns.end(), {"seed", "status"});
   columns.insert(columns.end(), numbers.begin(), numbers.end());
-  if (&numbers == &figures) columns.emplace_back(pattern);
+  if (&numbers == &figures_of_study) columns.emplace_back(pattern);
   return columns;
 }
 
@@ -152,8 +152,8 @@ void write_table(const std::filesystem::path &csv, const std::vector<std::string
 
 StudyTables::StudyTables(const StudyPlan &plan, const OutputPaths &paths)
     : plan_(plan),
-      study_(paths.study(), columns_of(plan, figures)),
-      costs_(paths.costs(), columns_of(plan, costs)),
+      study_(paths.study(), columns_of(plan, figures_of_study)),
+      costs_(paths.costs(), columns_of(plan, costs_of_study)),
       outcomes_(plan.cases.size()) {}
 
 void StudyTables::add(const TestRun &run, const RunOutcome &outcome) {
@@ -165,10 +165,10 @@ void StudyTables::add(const TestRun &run, const RunOutcome &outcome) {
   cells.push_back(run.seed);
   cells.push_back(word(outcome));
   Json cost_cells = cells;
-  for (const std::string &key : figures)
+  for (const std::string &key : figures_of_study)
     cells.push_back(number_in(outcome.summary, key));
   cells.push_back(text_in(outcome.summary, pattern));
-  for (const std::string &key : costs)
+  for (const std::string &key : costs_of_study)
     cost_cells.push_back(number_in(outcome.summary, key));
   write_row(study_, cells);
   write_row(costs_, cost_cells);
@@ -200,7 +200,7 @@ Json StudyTables::cases() const {
       one["without_peak"] = std::count_if(runs.begin(), runs.end(), [](const RunOutcome &outcome) {
         return outcome.done && !has_peaked(outcome.summary);
       });
-    for (const std::string &key : figures)
+    for (const std::string &key : figures_of_study)
       one[key] = json_of(statistics_of(runs, key), "runs");
     std::map<std::string, int> patterns; // runs that failed so
     for (const RunOutcome &outcome : runs)

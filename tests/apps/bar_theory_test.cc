@@ -101,7 +101,7 @@ TEST(bar_theory, timoshenko_lies_where_a_discrete_beam_does) {
 }
 
 // n touching spheres joined by beams along z.
-class Chain : public testing::Test {
+class Chain : public ::testing::Test {
 protected:
   static constexpr double radius = 1e-3, young = 40e9, poisson = .2, slender = .7, density = 2500;
   static dem::Specimen spheres(int n) {

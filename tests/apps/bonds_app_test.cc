@@ -24,7 +24,7 @@ std::string text_of(const fs::path &path) {
   return text.str();
 }
 
-class BondsApp : public testing::Test {
+class BondsApp : public ::testing::Test {
 protected:
   BondsApp() : folder(fs::temp_directory_path() / ("platen_bonds_" + std::to_string(::getpid()))) {
     fs::remove_all(folder);

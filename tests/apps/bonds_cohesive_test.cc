@@ -21,7 +21,7 @@ constexpr double length = 2e-3, area = 3.14159265358979323846e-6, kn = 28e9 / le
 // of 1e-9 beside its row takes as much of the energy.
 constexpr double close = 1e-8;
 
-ComparedRun run_pair(const Words &overrides) {
+ComparedRun run_cohesive(const Words &overrides) {
   return compared_run("softening_bond.prm", overrides);
 }
 
@@ -45,7 +45,7 @@ void expect_by_hand(const ComparedRun &run) {
 
 TEST(bonds_cohesive, tension_softens_to_its_end_and_takes_the_energy_of_the_triangle) {
   for (const char *steps : {"Pair test/Steps = 7", "Pair test/Steps = 500"}) {
-    const ComparedRun run = run_pair({steps});
+    const ComparedRun run = run_cohesive({steps});
     const double limit = 5e6 / kn;
     EXPECT_NEAR(run.break_load, 5e6 * area, close * 5e6 * area);
     EXPECT_NEAR(force_at(run, limit), 5e6 * area, 1e-5 * 5e6 * area);
@@ -64,7 +64,7 @@ TEST(bonds_cohesive, tension_softens_to_its_end_and_takes_the_energy_of_the_tria
 TEST(bonds_cohesive, a_given_fracture_energy_is_what_it_takes) {
   for (const char *radius : {"Specimen/Sphere radius = 1 mm", "Specimen/Sphere radius = 0.25 mm"}) {
     const ComparedRun run =
-        run_pair({radius, "Bond/Fracture energy tension = 4", "Pair test/Displacement = 3 um"});
+        run_cohesive({radius, "Bond/Fracture energy tension = 4", "Pair test/Displacement = 3 um"});
     EXPECT_NEAR(run.fracture_energy, 4, close * 4) << radius;
     expect_by_hand(run);
   }
@@ -72,9 +72,9 @@ TEST(bonds_cohesive, a_given_fracture_energy_is_what_it_takes) {
 
 TEST(bonds_cohesive, damaged_tension_unloads_by_the_secant_and_comes_back) {
   const double limit = 5e6 / kn; // .357 um
-  const ComparedRun run = run_pair({"Pair test/Displacement =",
-                                    "Pair test/Turns = 0.392857142857143 um, "
-                                    "0.1 um, 0.5 um"});
+  const ComparedRun run = run_cohesive({"Pair test/Displacement =",
+                                        "Pair test/Turns = 0.392857142857143 um, "
+                                        "0.1 um, 0.5 um"});
   const std::size_t turn = row_at(run, 1.1 * limit);
   EXPECT_NEAR(run.rows[turn].force, 2.5e6 * area, 1e-5 * 5e6 * area); // half of the softening
   EXPECT_NEAR(run.rows[turn].tension_damage, .5, 1e-6);
@@ -91,8 +91,8 @@ TEST(bonds_cohesive, damaged_tension_unloads_by_the_secant_and_comes_back) {
 // LCS 20, 45, 70 MPa at slopes of a third, a twelfth and a 22nd: strains 7.142857e-4, 3.392857e-3,
 // 1.4107143e-2.
 TEST(bonds_cohesive, compression_yields_along_its_branches_and_unloads_elastically) {
-  const ComparedRun run =
-      run_pair({"Pair test/Path = compression", "Pair test/Displacement =", "Pair test/Turns = -40 um, 0"});
+  const ComparedRun run = run_cohesive(
+      {"Pair test/Path = compression", "Pair test/Displacement =", "Pair test/Turns = -40 um, 0"});
   const double strains[] = {7.142857142857143e-4, 3.392857142857143e-3, 1.4107142857142857e-2};
   const double stresses[] = {20e6, 45e6, 70e6};
   for (int k = 0; k < 3; ++k)
@@ -120,8 +120,8 @@ TEST(bonds_cohesive, compression_yields_along_its_branches_and_unloads_elastical
 TEST(bonds_cohesive, shear_softens_from_cohesion_and_static_friction_to_dynamic_friction) {
   const double pressure = 10e6, strength = 16e6 + .9 * pressure, residual = .25 * pressure;
   const double limit = strength / ks, stretch = residual / ks;
-  const ComparedRun run =
-      run_pair({"Pair test/Path = shear", "Pair test/Pressure = 10 MPa", "Pair test/Displacement = 12 um"});
+  const ComparedRun run = run_cohesive(
+      {"Pair test/Path = shear", "Pair test/Pressure = 10 MPa", "Pair test/Displacement = 12 um"});
   EXPECT_NEAR(run.break_load, strength * area, close * strength * area);
   EXPECT_NEAR(run.rows.back().force, residual * area, close * strength * area);
   EXPECT_NEAR(run.rows.back().normal, -pressure * area, close * pressure * area);
@@ -140,8 +140,8 @@ TEST(bonds_cohesive, shear_softens_from_cohesion_and_static_friction_to_dynamic_
 
 TEST(bonds_cohesive, sliding_back_sticks_by_the_spring_of_friction_first) {
   const double residual = 2.5e6;
-  const ComparedRun run = run_pair({"Pair test/Path = shear", "Pair test/Pressure = 10 MPa",
-                                    "Pair test/Displacement =", "Pair test/Turns = 10 um, -10 um, 0"});
+  const ComparedRun run = run_cohesive({"Pair test/Path = shear", "Pair test/Pressure = 10 MPa",
+                                        "Pair test/Displacement =", "Pair test/Turns = 10 um, -10 um, 0"});
   const std::size_t turn = row_at(run, 10e-6);
   EXPECT_NEAR(force_at(run, 10e-6 - 2 * residual / ks, turn), -residual * area, 1e-5 * residual * area);
   EXPECT_NEAR(force_at(run, -10e-6, turn), -residual * area, close * 25e6 * area);
@@ -151,14 +151,14 @@ TEST(bonds_cohesive, sliding_back_sticks_by_the_spring_of_friction_first) {
 
 // Half damaged in shear, unloaded and loaded again.
 TEST(bonds_cohesive, damaged_shear_unloads_by_its_secant_and_its_friction) {
-  const ComparedRun run = run_pair({"Pair test/Path = shear", "Pair test/Pressure = 5 MPa",
-                                    "Pair test/Displacement =", "Pair test/Turns = 5 um, 0, 12 um"});
+  const ComparedRun run = run_cohesive({"Pair test/Path = shear", "Pair test/Pressure = 5 MPa",
+                                        "Pair test/Displacement =", "Pair test/Turns = 5 um, 0, 12 um"});
   EXPECT_EQ(run.broken_shear, 1);
   expect_by_hand(run);
 }
 
 TEST(bonds_cohesive, pure_shear_takes_the_energy_of_its_triangle) {
-  const ComparedRun run = run_pair(
+  const ComparedRun run = run_cohesive(
       {"Pair test/Path = shear", "Pair test/Displacement = 6 um", "Bond/Fracture energy shear = 25"});
   EXPECT_NEAR(run.fracture_energy, 25, close * 25);
   EXPECT_NEAR(run.last().dissipated, area * (25 + .5 * 16e6 * 16e6 / ks), close * area * 50);
@@ -172,9 +172,9 @@ TEST(bonds_cohesive, the_coupled_line_of_failure_adds_both_shares) {
   const double ratio = 16e6 / ks / (5e6 / kn); // 7.68
   for (const bool coupled : {false, true}) {
     const ComparedRun run =
-        run_pair({"Pair test/Path = combined", "Pair test/Displacement = 0.6 um",
-                  "Bond/Softening shear = 0.2", "Pair test/Slip ratio = " + std::to_string(ratio),
-                  coupled ? "Bond/Failure line = coupled" : "Bond/Failure line = uncoupled"});
+        run_cohesive({"Pair test/Path = combined", "Pair test/Displacement = 0.6 um",
+                      "Bond/Softening shear = 0.2", "Pair test/Slip ratio = " + std::to_string(ratio),
+                      coupled ? "Bond/Failure line = coupled" : "Bond/Failure line = uncoupled"});
     const double share = coupled ? .5 : 1;
     EXPECT_NEAR(run.break_load, share * 5e6 * area, close * 5e6 * area);
     double shear = 0;
@@ -190,8 +190,8 @@ TEST(bonds_cohesive, the_coupled_line_of_failure_adds_both_shares) {
 
 // The direction that is used up first takes the other one with it.
 TEST(bonds_cohesive, what_one_direction_uses_up_the_other_lets_go) {
-  const ComparedRun run = run_pair({"Pair test/Path = combined", "Pair test/Displacement = 0.6 um",
-                                    "Pair test/Slip ratio = 3", "Bond/Failure line = coupled"});
+  const ComparedRun run = run_cohesive({"Pair test/Path = combined", "Pair test/Displacement = 0.6 um",
+                                        "Pair test/Slip ratio = 3", "Bond/Failure line = coupled"});
   EXPECT_EQ(run.rows.back().intact, 0);
   EXPECT_EQ(run.rows.back().shear, 0);
   EXPECT_LT(run.last().shear_damage, 1);
@@ -200,8 +200,8 @@ TEST(bonds_cohesive, what_one_direction_uses_up_the_other_lets_go) {
 
 TEST(bonds_cohesive, a_cycle_through_tension_and_compression_is_the_one_by_hand) {
   const ComparedRun run =
-      run_pair({"Pair test/Displacement =", "Pair test/Turns = 0.38 um, -5 um, -3 um, -3.3 um, -2 um",
-                "Pair test/Steps = 200"});
+      run_cohesive({"Pair test/Displacement =", "Pair test/Turns = 0.38 um, -5 um, -3 um, -3.3 um, -2 um",
+                    "Pair test/Steps = 200"});
   expect_by_hand(run);
   EXPECT_GT(run.last().plastic_closing, 1e-6);
 }
@@ -214,7 +214,8 @@ Words turning(Words more) {
 
 // The skin's strength 5 MPa at beta R_b of the axis: M = sigma I/(beta R_b), and the turn that goes with it.
 TEST(bonds_cohesive, bending_softens_from_the_strength_of_the_skin) {
-  const ComparedRun run = run_pair(turning({"Pair test/Path = bending", "Pair test/Displacement = 1.2 um"}));
+  const ComparedRun run =
+      run_cohesive(turning({"Pair test/Path = bending", "Pair test/Displacement = 1.2 um"}));
   expect_by_hand(run);
   const double inertia = .25 * area * 1e-6, strength = 5e6 * inertia / (.5 * 1e-3);
   EXPECT_NEAR(run.break_load, strength, close * strength);
@@ -226,7 +227,8 @@ TEST(bonds_cohesive, bending_softens_from_the_strength_of_the_skin) {
 }
 
 TEST(bonds_cohesive, twisting_softens_from_the_strength_of_the_skin_in_shear) {
-  const ComparedRun run = run_pair(turning({"Pair test/Path = twisting", "Pair test/Displacement = 12 um"}));
+  const ComparedRun run =
+      run_cohesive(turning({"Pair test/Path = twisting", "Pair test/Displacement = 12 um"}));
   expect_by_hand(run);
   const double inertia = .5 * area * 1e-6, strength = 16e6 * inertia / (.5 * 1e-3);
   EXPECT_NEAR(run.break_load, strength, close * strength);
@@ -240,7 +242,7 @@ TEST(bonds_cohesive, what_has_been_bent_too_far_turns_back_by_the_secant_and_on_
     for (const char *path : {"bending", "twisting"})
       for (const char *set : {"best", "baseline"}) {
         SCOPED_TRACE(std::string(line) + ", " + path + ", " + set);
-        const ComparedRun run = run_pair(
+        const ComparedRun run = run_cohesive(
             turning({line, std::string("Pair test/Path = ") + path, "Bond/Softening tension = 0.4",
                      std::string("Integration/Instruction set = ") + set,
                      "Pair test/Displacement =", "Pair test/Turns = 0.8 um, -0.9 um, 0.85 um, 12 um"}));
@@ -251,8 +253,8 @@ TEST(bonds_cohesive, what_has_been_bent_too_far_turns_back_by_the_secant_and_on_
 }
 
 TEST(bonds_cohesive, a_skin_that_does_not_count_never_breaks) {
-  const ComparedRun run = run_pair({"Effects/Interface moments = on", "Bond/Moment contribution = 0",
-                                    "Pair test/Path = bending", "Pair test/Displacement = 5 um"});
+  const ComparedRun run = run_cohesive({"Effects/Interface moments = on", "Bond/Moment contribution = 0",
+                                        "Pair test/Path = bending", "Pair test/Displacement = 5 um"});
   expect_by_hand(run);
   EXPECT_EQ(run.broken_tension + run.broken_shear, 0);
   EXPECT_TRUE(std::isnan(run.break_load));
@@ -285,7 +287,7 @@ TEST(bonds_cohesive, a_facet_is_sheared_up_to_its_cohesion) {
 }
 
 TEST(bonds_cohesive, without_rotation_the_normal_law_is_the_same) {
-  const ComparedRun with = run_pair({}), without = run_pair({"Effects/Rotation = off"});
+  const ComparedRun with = run_cohesive({}), without = run_cohesive({"Effects/Rotation = off"});
   ASSERT_EQ(with.rows.size(), without.rows.size());
   for (std::size_t k = 0; k < with.rows.size(); ++k)
     EXPECT_EQ(with.rows[k].force, without.rows[k].force);
@@ -306,7 +308,7 @@ TEST(bonds_cohesive, what_cannot_be_led_is_refused) {
       {{"Pair test/Stiffness ratio list = 0.2, 0.4"}, "is for parallel bonds"}};
   for (const auto &[words, says] : faults)
     try {
-      run_pair(words);
+      run_cohesive(words);
       ADD_FAILURE() << words.front() << " is taken";
     } catch (const InputError &error) {
       EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();

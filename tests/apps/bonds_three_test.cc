@@ -17,7 +17,7 @@ Scene pyramid_scene(const Words &overrides) {
   return read_scene(std::string(PLATEN_SCENES) + "/three_particles.prm", overrides, program("bonds"));
 }
 
-constexpr double axial = 150e9 * 3.14159265358979e-6 / 2e-3; // k_n A, N/m
+constexpr double axial_of_base = 150e9 * 3.14159265358979e-6 / 2e-3; // k_n A, N/m
 
 // Minimum of the elastic energy of the three bonds over the spread u of each base sphere and its rotation,
 // for the top sphere pressed down by w = 1; small displacements, no contact forces.
@@ -57,7 +57,7 @@ void PrintTo(const Variant &v, std::ostream *out) {
   *out << "base bond " << v.base_bond << ", rotation " << v.rotation << ", plate " << v.plate;
 }
 
-class Pyramids : public testing::TestWithParam<Variant> {};
+class Pyramids : public ::testing::TestWithParam<Variant> {};
 
 TEST_P(Pyramids, spread_as_the_least_energy_says) {
   const Variant v = GetParam();
@@ -73,7 +73,8 @@ TEST_P(Pyramids, spread_as_the_least_energy_says) {
         by_least_energy(test.stiffness_ratios[k], test.plate, test.base_bond, scene.model.rotation);
     EXPECT_NEAR(by_hand.strain_ratio, v.strain_ratio[k], .5001e-4); // the printed digits
     EXPECT_NEAR(r.strain_ratio, by_hand.strain_ratio, 1e-3 * std::abs(by_hand.strain_ratio));
-    EXPECT_NEAR(r.force / r.displacement, axial * by_hand.stiffness, 1e-4 * axial * by_hand.stiffness);
+    EXPECT_NEAR(r.force / r.displacement, axial_of_base * by_hand.stiffness,
+                1e-4 * axial_of_base * by_hand.stiffness);
   }
   for (std::size_t k = 1; k < 5; ++k) // stiffer shear springs resist spreading
     EXPECT_LE(runs[k].largest.strain_ratio, runs[k - 1].largest.strain_ratio);
@@ -81,13 +82,13 @@ TEST_P(Pyramids, spread_as_the_least_energy_says) {
 
 INSTANTIATE_TEST_SUITE_P(
     bonds_three, Pyramids,
-    testing::Values(Variant{"off", "off", "frictionless", {.6000, .4286, .2903, .1765, .0811}},
-                    Variant{"on", "off", "frictionless", {.1429, .1111, .0811, .0526, .0256}},
-                    Variant{"off", "on", "frictionless", {1.6667, 1.6154, 1.5763, 1.5455, 1.5205}},
-                    Variant{"on", "on", "frictionless", {.2121, .2000, .1897, .1810, .1733}},
-                    Variant{"off", "on", "rolling", {-.0259, -.0848, -.1298, -.1652, -.1939}},
-                    Variant{"on", "on", "rolling", {-.0122, -.0432, -.0701, -.0938, -.1148}},
-                    Variant{"on", "on", "sticking", {0, 0, 0, 0, 0}}));
+    ::testing::Values(Variant{"off", "off", "frictionless", {.6000, .4286, .2903, .1765, .0811}},
+                      Variant{"on", "off", "frictionless", {.1429, .1111, .0811, .0526, .0256}},
+                      Variant{"off", "on", "frictionless", {1.6667, 1.6154, 1.5763, 1.5455, 1.5205}},
+                      Variant{"on", "on", "frictionless", {.2121, .2000, .1897, .1810, .1733}},
+                      Variant{"off", "on", "rolling", {-.0259, -.0848, -.1298, -.1652, -.1939}},
+                      Variant{"on", "on", "rolling", {-.0122, -.0432, -.0701, -.0938, -.1148}},
+                      Variant{"on", "on", "sticking", {0, 0, 0, 0, 0}}));
 
 // 3(1 - r)/(1 + 3r), (1 - r)/(3 + r), and r/(1 + 4r) for r where spheres turn freely.
 TEST(bonds_three, the_energy_gives_the_formulas_of_simple_cases) {
@@ -107,7 +108,7 @@ TEST(bonds_three, unloading_goes_back_on_the_same_line) {
       run_bond_tests(pyramid_scene({"Pair test/Path = cyclic", "Pair test/Steps = 8",
                                     "Pair test/Stiffness ratio list = 0.7", "Effects/Rotation = on"}))
           .at(0);
-  const double stiffness = axial * by_least_energy(.7, PairPlate::frictionless, true, true).stiffness;
+  const double stiffness = axial_of_base * by_least_energy(.7, PairPlate::frictionless, true, true).stiffness;
   for (const BondReading &row : run.rows)
     EXPECT_NEAR(row.displacement, row.force / stiffness, 1e-4 / stiffness);
 }

@@ -69,9 +69,9 @@ struct PathCase {
 void PrintTo(const PathCase &path, std::ostream *out) {
   *out << path.word;
 }
-class Path : public testing::TestWithParam<PathCase> {};
+class Path : public ::testing::TestWithParam<PathCase> {};
 class BeamPath : public Path {};
-std::string word_of_case(const testing::TestParamInfo<PathCase> &path) {
+std::string word_of_case(const ::testing::TestParamInfo<PathCase> &path) {
   return path.param.word;
 }
 
@@ -107,10 +107,11 @@ TEST_P(Path, breaks_at_the_strength_of_the_section) {
 // K = 150 GPa A / 2 mm and half of it in shear; sigma_c A, tau_c A, sigma_c I/R, tau_c J/R with R = 1 mm.
 constexpr double section = 3.14159265358979e-6, axial = 150e9 * section / 2e-3;
 INSTANTIATE_TEST_SUITE_P(bonds_two, Path,
-                         testing::Values(PathCase{"tension", axial, .5e9 * section},
-                                         PathCase{"shear", axial / 2, .25e9 * section},
-                                         PathCase{"bending", axial * 1e-6 / 4, .5e9 * section * 1e-3 / 4},
-                                         PathCase{"twisting", axial * 1e-6 / 4, .25e9 * section * 1e-3 / 2}),
+                         ::testing::Values(PathCase{"tension", axial, .5e9 * section},
+                                           PathCase{"shear", axial / 2, .25e9 * section},
+                                           PathCase{"bending", axial * 1e-6 / 4, .5e9 * section * 1e-3 / 4},
+                                           PathCase{"twisting", axial * 1e-6 / 4,
+                                                    .25e9 * section * 1e-3 / 2}),
                          word_of_case);
 
 // A beam of the radius .71 mm between centres 2 mm apart, E = 150 GPa, nu = .25, sigma_c .5 GPa, tau_c .25
@@ -131,11 +132,11 @@ constexpr double beam_section = 3.14159265358979 * .71e-3 * .71e-3,
                  beam_inertia = beam_section * .71e-3 * .71e-3 / 4;
 INSTANTIATE_TEST_SUITE_P(
     bonds_two, BeamPath,
-    testing::Values(PathCase{"tension", 150e9 * beam_section / 2e-3, .5e9 * beam_section},
-                    PathCase{"shear", 12 * 150e9 * beam_inertia / 8e-9,
-                             2 * .5e9 * beam_inertia / (.71e-3 * 2e-3)},
-                    PathCase{"bending", 150e9 * beam_inertia / 2e-3, .5e9 * beam_inertia / .71e-3},
-                    PathCase{"twisting", 60e9 * 2 * beam_inertia / 2e-3, .25e9 * 2 * beam_inertia / .71e-3}),
+    ::testing::Values(
+        PathCase{"tension", 150e9 * beam_section / 2e-3, .5e9 * beam_section},
+        PathCase{"shear", 12 * 150e9 * beam_inertia / 8e-9, 2 * .5e9 * beam_inertia / (.71e-3 * 2e-3)},
+        PathCase{"bending", 150e9 * beam_inertia / 2e-3, .5e9 * beam_inertia / .71e-3},
+        PathCase{"twisting", 60e9 * 2 * beam_inertia / 2e-3, .25e9 * 2 * beam_inertia / .71e-3}),
     word_of_case);
 
 TEST(bonds_two, compression_breaks_nothing) {

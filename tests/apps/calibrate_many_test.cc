@@ -27,7 +27,7 @@ constexpr double exponents[8][8] = {{1, 0.2, 0, 0, 0, 0, 0, 0},
                                     {0, 0.1, 0.3, 0.4, -0.3, 0.5, 0.2, 0.1},
                                     {0, 0, 0.1, 0.3, -0.1, 0.6, 0.45, 0.3},
                                     {0, 0, -0.1, 0.3, 0.2, 0.3, -0.1, 0.4}};
-constexpr std::size_t tension = 4; // the place of this target
+constexpr std::size_t place_of_tension = 4; // the place of this target
 
 Scene scene_of_eight(double tolerance) {
   const std::string pressure = std::string("strength_pa at ") + in_a_cell;
@@ -210,7 +210,7 @@ TEST(ManyTargets, packings_that_were_not_searched_on_correct_the_search_where_th
       for (int pair = 0; pair < pairs; ++pair)
         for (const double scatter : {0.99, 1.01})
           numbers.push_back(power_law(goals, goal, choice) * scatter *
-                            (place_of(goals, goal) == tension ? factor : 1));
+                            (place_of(goals, goal) == place_of_tension ? factor : 1));
       return numbers;
     });
   };
@@ -221,12 +221,12 @@ TEST(ManyTargets, packings_that_were_not_searched_on_correct_the_search_where_th
     trained.push_back(own({found.choice}, false).front());
     further.push_back(others({found.choice}, false).front());
     trials.push_back(found.trials);
-    if (goals.met(tension, further.back()) || further.size() > 2) return std::nullopt;
+    if (goals.met(place_of_tension, further.back()) || further.size() > 2) return std::nullopt;
     return goals.correction(trained, further);
   });
   ASSERT_EQ(further.size(), 2u); // the first ones missed by a tenth, the second ones do not
-  EXPECT_GT(std::abs(goals.miss(tension, further.front())), 0.05);
-  EXPECT_LT(std::abs(goals.miss(tension, further.back())), 0.03);
+  EXPECT_GT(std::abs(goals.miss(place_of_tension, further.front())), 0.05);
+  EXPECT_LT(std::abs(goals.miss(place_of_tension, further.back())), 0.03);
   EXPECT_GT(f.trials, trials.front()); // what was tried counts on
   EXPECT_LE(f.trials, trials.front() + 12);
   EXPECT_TRUE(analyse(goals, f).missed.empty());

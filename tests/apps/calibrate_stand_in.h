@@ -11,7 +11,6 @@
 
 namespace platen::apps {
 
-constexpr double degree = pi / 180; // rad
 using Texts = std::vector<std::string>;
 constexpr const char *const in_a_cell = "Loading/Confinement = particles, Loading/Confining pressure = ";
 

@@ -121,7 +121,7 @@ TEST(Trial, that_was_too_fast_or_not_valid_has_a_reason_and_no_number) {
   EXPECT_TRUE(result_of(test, {{"quasi_static", true}, {"strength_pa", 4e7}}, "").good());
 }
 
-class CurveFile : public testing::Test {
+class CurveFile : public ::testing::Test {
 protected:
   CurveFile() : folder(fs::temp_directory_path() / ("platen_curve_" + std::to_string(::getpid()))) {
     fs::create_directories(folder);

@@ -38,7 +38,7 @@ protected:
   }
 };
 
-const Words strength{"strength_pa", "strain_at_peak_platen", "strain_at_peak_gauge", "barrel_at_peak"},
+const Words of_the_peak{"strength_pa", "strain_at_peak_platen", "strain_at_peak_gauge", "barrel_at_peak"},
     youngs_moduli{"youngs_modulus_gauge_pa", "youngs_modulus_platen_pa"},
     moduli{"youngs_modulus_gauge_pa", "youngs_modulus_platen_pa", "poisson_ratio"};
 
@@ -49,7 +49,7 @@ TEST_F(Figures, of_a_crushed_cylinder_are_valid) {
   EXPECT_EQ(s["ended_by"], "stop at residual");
   EXPECT_EQ(s["largest_stress_pa"], s["strength_pa"]);
   EXPECT_LT(s["stress_at_end_pa"].get<double>(), 0.98 * s["strength_pa"].get<double>());
-  expect_valid(s, strength);
+  expect_valid(s, of_the_peak);
   expect_valid(s, moduli);
   expect_valid(s, {"end_damage_top", "middle_damage", "end_spread"});
 }
@@ -58,7 +58,7 @@ TEST_F(Figures, of_a_test_that_ends_before_its_peak_are_none_but_the_moduli_of_s
   const nlohmann::json s = crush("short", {"Loading/Target strain = 0.0002", "Expect/pattern ="});
   EXPECT_EQ(s["peak_reached"], false);
   EXPECT_EQ(s["ended_by"], "target");
-  expect_reason(s, strength, "no peak was reached: by the strain of 0.00018");
+  expect_reason(s, of_the_peak, "no peak was reached: by the strain of 0.00018");
   expect_valid(s, moduli);
   EXPECT_NEAR(s["stress_at_end_pa"].get<double>(), s["largest_stress_pa"].get<double>(),
               0.05 * s["largest_stress_pa"].get<double>());
@@ -87,13 +87,13 @@ const std::string of = "Bond/Calibrated figures = ";
 
 TEST_F(Figures, for_which_bonds_are_not_calibrated_are_none) {
   const nlohmann::json tensile = crush("tensile", {of + "elastic, tension"});
-  expect_reason(tensile, strength,
+  expect_reason(tensile, of_the_peak,
                 "are not calibrated for it: Bond/Calibrated figures = elastic, tension, without compression");
   expect_reason(tensile, {"end_damage_top", "middle_damage", "end_spread"}, "without compression");
   expect_valid(tensile, youngs_moduli);
   EXPECT_GT(tensile["largest_stress_pa"].get<double>(), 0);
   const nlohmann::json crushed = crush("crushed", {of + "compression"});
-  expect_valid(crushed, strength);
+  expect_valid(crushed, of_the_peak);
   expect_valid(crushed, {"end_damage_top", "middle_damage", "end_spread"});
   expect_reason(crushed, moduli, "Bond/Calibrated figures = compression, without elastic");
   const Words cell{"Loading/Confinement = particles", "Loading/Confining pressure = 1 MPa",
@@ -111,7 +111,7 @@ TEST_F(Figures, a_poisson_ratio_of_compression_needs_a_secant_ratio_that_was_cal
                 "Bond/Calibrated figures = elastic, compression, without secant ratio");
   EXPECT_TRUE(without["poisson_ratio_extremal"].is_null());
   expect_valid(without, youngs_moduli);
-  expect_valid(without, strength);
+  expect_valid(without, of_the_peak);
   expect_valid(crush("with", {of + "elastic, compression, secant ratio"}), moduli);
   expect_valid(crush("unsaid", {of}), moduli);
 }

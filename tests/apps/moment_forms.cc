@@ -7,7 +7,7 @@ namespace platen::apps::testing {
 namespace {
 
 // Of the turn of failure: rows stand on both of its sides. A turn is the sum of its steps.
-constexpr double beside_failure = 1e-7;
+constexpr double beside_failing_turn = 1e-7;
 
 } // namespace
 
@@ -55,7 +55,7 @@ std::vector<double> MomentByHand::kinks(double to) const {
     const double softest = section_.coupled ? std::min(section_.own.softening, section_.other.softening)
                                             : section_.own.softening;
     const double limit = section_.own.limit() / section_.arm, end = limit * (1 + std::max(0.0, softest));
-    sines.insert(sines.end(), {end * (1 - beside_failure), end * (1 + beside_failure)});
+    sines.insert(sines.end(), {end * (1 - beside_failing_turn), end * (1 + beside_failing_turn)});
     if (!section_.own.is_brittle()) sines.push_back(limit);
   }
   for (const double sine : sines)

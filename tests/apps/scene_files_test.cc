@@ -17,8 +17,6 @@ namespace {
 
 using namespace testing;
 
-const apps::Program &compress = program("compress");
-
 const std::string concrete = R"(# A concrete cylinder.
 subsection Scene
   set Title = Cylinder, 50 mm
@@ -76,7 +74,7 @@ protected:
     return (folder_ / name).string();
   }
   Scene read(const std::string &name, const std::string &text, const Entries &overrides = {}) const {
-    return read_scene(put(name, text), overrides, compress);
+    return read_scene(put(name, text), overrides, program("compress"));
   }
 };
 
@@ -169,13 +167,13 @@ TEST_F(SceneFiles, a_written_scene_is_completed_with_the_defaults_of_what_it_lac
     EXPECT_NE(at, std::string::npos) << key;
     text.replace(at, text.find('\n', at) + 1 - at, line);
     put("results/scene.prm", text);
-    return completed_scene_text(file, folder, compress);
+    return completed_scene_text(file, folder, program("compress"));
   };
   EXPECT_EQ(completed(whole, "Safety", ""), whole);
   EXPECT_NE(completed(whole, "Safety", "  set Safety = 0.7\n"), whole);
   EXPECT_NE(completed(whole, "Sphere radius", ""), whole) << "a given value, not the default";
   EXPECT_EQ(completed("  set Safety = broken\n", "Safety", "what is no scene\n"), "what is no scene\n");
-  EXPECT_EQ(completed_scene_text(folder + "/none.prm", folder, compress), "");
+  EXPECT_EQ(completed_scene_text(folder + "/none.prm", folder, program("compress")), "");
 }
 
 TEST_F(SceneFiles, a_file_is_looked_for_beside_the_scene_that_names_it) {

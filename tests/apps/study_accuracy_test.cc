@@ -9,7 +9,7 @@
 namespace platen::apps::testing {
 namespace {
 
-StudyPlan plan_with(const Words &entries) {
+StudyPlan accuracy_plan(const Words &entries) {
   return plan_of(StudyKind::accuracy, with(entries, {"Loading/Stop at residual = 0.5"}));
 }
 
@@ -19,8 +19,8 @@ Words without_radii(const Words &entries) {
 
 TEST(AccuracyPlan, each_list_is_run_alone_and_what_the_scene_has_is_run_once) {
   const StudyPlan plan =
-      plan_with({"Study/Safety list = 0.9, 0.8, 0.2", "Study/Axial rate list = 0.6 m/s, 0.3",
-                 "Study/Effects list = Effects/Rotation=off, Bond/Damping = 0.1"});
+      accuracy_plan({"Study/Safety list = 0.9, 0.8, 0.2", "Study/Axial rate list = 0.6 m/s, 0.3",
+                     "Study/Effects list = Effects/Rotation=off, Bond/Damping = 0.1"});
   EXPECT_EQ(names_of(plan), (Words{"safety_0.9", "base", "safety_0.2", "axial_rate_0.6",
                                    "sphere_radius_1.4_mm", "effects_rotation_off", "bond_damping_0.1"}));
   ASSERT_EQ(plan.parameters.size(), 4u);
@@ -49,11 +49,11 @@ TEST(AccuracyPlan, each_list_is_run_alone_and_what_the_scene_has_is_run_once) {
 }
 
 TEST(AccuracyPlan, meshes_and_solves_of_bodies_are_varied_where_there_are_bodies) {
-  const StudyPlan plan = plan_with(without_radii(
+  const StudyPlan plan = accuracy_plan(without_radii(
       {"Platens/Kind = deformable", "Platens/Motion = quasi-static", "Study/Platen mesh list = 4, 8",
        "Study/Steps per solve list = 20, 1", "Study/Mass scaling list = 10, 1"}));
   EXPECT_EQ(names_of(plan), (Words{"mass_scaling_10", "base", "platen_mesh_4", "steps_per_solve_1"}));
-  const StudyPlan sleeve = plan_with(
+  const StudyPlan sleeve = accuracy_plan(
       without_radii({"Loading/Confinement = sleeve", "Loading/Confining pressure = 1 MPa",
                      "Study/Sleeve mesh list = 12, 24", "Study/Sleeve mass scaling list = 100, 10"}));
   EXPECT_EQ(names_of(sleeve),
@@ -63,7 +63,7 @@ TEST(AccuracyPlan, meshes_and_solves_of_bodies_are_varied_where_there_are_bodies
 TEST(AccuracyPlan, words_of_quality_are_cases_where_the_scene_leaves_their_entries_open) {
   const Words open{"Loading/Axial rate =", "Scene/Quality = standard",
                    "Study/Quality list = fast, standard, reference", "Study/Wave crossings list = 60, 240"};
-  const StudyPlan plan = plan_with(without_radii(open));
+  const StudyPlan plan = accuracy_plan(without_radii(open));
   EXPECT_EQ(names_of(plan), (Words{"base", "wave_crossings_240", "quality_fast", "quality_reference"}));
   const Scene fast = led_to(plan.cases[2], 3, open);
   EXPECT_EQ(fast.time_step.safety, 0.95);
@@ -73,7 +73,7 @@ TEST(AccuracyPlan, words_of_quality_are_cases_where_the_scene_leaves_their_entri
 // A plan of one parameter with five values and two seeds, and runs made up for it.
 class MadeUp : public ::testing::Test {
 protected:
-  StudyPlan plan_ = plan_with(without_radii({"Study/Safety list = 0.9, 0.8, 0.4, 0.2, 0.1"}));
+  StudyPlan plan_ = accuracy_plan(without_radii({"Study/Safety list = 0.9, 0.8, 0.4, 0.2, 0.1"}));
   Outcomes outcomes_ = Outcomes(plan_.cases.size());
 
   void add(std::size_t of, double strength, double seconds, double broken = 100) {
@@ -137,11 +137,12 @@ TEST_F(MadeUp, a_value_that_failed_on_a_seed_is_not_known_to_be_accurate) {
   EXPECT_EQ(cheapest_within(of, Measure::broken_bonds, 0.01), 3u); // all are; that one is the cheapest
 }
 
-const Words small = set({no_radii, "Study/Safety list = 0.8, 0.4",
-                         "Study/Effects list = Effects/Energy ledger = off", "Loading/Target strain = 0.03"});
+const Words small_accuracy =
+    set({no_radii, "Study/Safety list = 0.8, 0.4", "Study/Effects list = Effects/Energy ledger = off",
+         "Loading/Target strain = 0.03"});
 
 TEST_F(Study, of_accuracy_tells_errors_of_each_knob_and_what_they_cost) {
-  ASSERT_EQ(run("one", small, "accuracy").status, 0) << content_of(folder_ / "error.txt");
+  ASSERT_EQ(run("one", small_accuracy, "accuracy").status, 0) << content_of(folder_ / "error.txt");
   const fs::path csv = folder_ / "one/accuracy.csv";
   EXPECT_EQ(words_in(csv, "knob"),
             (Words{"safety", "safety", "safety", "safety", "effects", "effects", "effects", "effects"}));
@@ -162,12 +163,12 @@ TEST_F(Study, of_accuracy_tells_errors_of_each_knob_and_what_they_cost) {
   EXPECT_EQ(study["accuracy"][1]["reference"], "the scene as it is");
   EXPECT_GT(study["costs"]["wall_seconds"][0]["mean"], 0);
 
-  ASSERT_EQ(run("two", with(small, {"-t", "2"}), "accuracy").status, 0);
+  ASSERT_EQ(run("two", with(small_accuracy, {"-t", "2"}), "accuracy").status, 0);
   EXPECT_EQ(content_of(folder_ / "two/accuracy.csv"), content_of(csv));
   EXPECT_EQ(json("two")["accuracy"], study["accuracy"]);
   fs::remove(folder_ / "two/runs/safety_0.4_seed_3/summary.json");
   fs::remove(folder_ / "two/accuracy.csv");
-  ASSERT_EQ(run("two", with(small, {"--resume"}), "accuracy").status, 0);
+  ASSERT_EQ(run("two", with(small_accuracy, {"--resume"}), "accuracy").status, 0);
   EXPECT_EQ(content_of(folder_ / "two/accuracy.csv"), content_of(csv));
 }
 

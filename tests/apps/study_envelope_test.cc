@@ -49,7 +49,7 @@ TEST(FailureLine, errors_are_those_of_least_squares) {
   EXPECT_EQ(line.reason, "");
   // Of c and phi by finite differences, with the covariance -1.5 s_k^2 of q and k.
   const auto c = [](double q, double k) { return q / (2 * std::sqrt(k)); };
-  const auto phi = [](double k) { return std::asin((k - 1) / (k + 1)) * 180 / pi; };
+  const auto phi = [](double k) { return std::asin((k - 1) / (k + 1)) / degree; };
   const double step = 1e-6, by_q = (c(10.2 + step, 4.2) - c(10.2 - step, 4.2)) / (2 * step),
                by_k = (c(10.2, 4.2 + step) - c(10.2, 4.2 - step)) / (2 * step), of_k = 0.4 / 5;
   const double variance =
@@ -104,14 +104,14 @@ TEST(FailureLine, what_points_do_not_give_is_missing_with_its_reason) {
   EXPECT_NEAR(line_through({{0, 40}, {8, 48}}).friction_angle, 0, 1e-9); // k = 1
 }
 
-StudyPlan plan_with(StudyKind kind, const Words &entries) {
+StudyPlan envelope_plan(StudyKind kind, const Words &entries) {
   return plan_of(kind, with(entries, {no_radii, "Loading/Confinement = particles"}));
 }
 
 TEST(FailureEnvelopes, are_of_cases_that_differ_by_pressure_alone) {
-  const StudyPlan plan = plan_with(StudyKind::friction,
-                                   {"Study/Surface list = dry steel, glued", "Study/Slenderness list = 1, 2",
-                                    "Study/Confining pressure list = 4 MPa, 0, 2 MPa"});
+  const StudyPlan plan = envelope_plan(
+      StudyKind::friction, {"Study/Surface list = dry steel, glued", "Study/Slenderness list = 1, 2",
+                            "Study/Confining pressure list = 4 MPa, 0, 2 MPa"});
   std::vector<std::vector<double>> strengths;
   for (std::size_t c = 0; c < plan.cases.size(); ++c) { // k = 3 to 6; the second packing is 10 MPa stronger
     const double k = 3 + static_cast<double>(c % 4), p = plan.cases[c].labels.back();
@@ -141,8 +141,8 @@ TEST(FailureEnvelopes, are_of_cases_that_differ_by_pressure_alone) {
   EXPECT_EQ(written[3]["cases"][1], plan.cases[7].name);
   EXPECT_EQ(written[3]["packings"][1]["seed"], 4);
 
-  EXPECT_EQ(failure_envelopes(plan_with(StudyKind::friction, {"Study/Surface list = dry steel, glued",
-                                                              "Study/Confining pressure list = 4 MPa"}),
+  EXPECT_EQ(failure_envelopes(envelope_plan(StudyKind::friction, {"Study/Surface list = dry steel, glued",
+                                                                  "Study/Confining pressure list = 4 MPa"}),
                               {{1, 1}, {1, 1}})
                 .size(),
             0u);
@@ -150,8 +150,9 @@ TEST(FailureEnvelopes, are_of_cases_that_differ_by_pressure_alone) {
 
 TEST(FailureEnvelopes, of_any_entries_have_the_name_of_all_that_is_varied_but_the_pressure) {
   const char *pressures = "Study/Vary 2 = Loading/Confining pressure: 1 MPa, 3 MPa";
-  const StudyPlan plan = plan_with(StudyKind::vary, {"Study/Vary 1 = Effects/Rotation: on, off", pressures,
-                                                     "Study/Vary 3 = Platens/Friction static: 0.2, 0.25"});
+  const StudyPlan plan =
+      envelope_plan(StudyKind::vary, {"Study/Vary 1 = Effects/Rotation: on, off", pressures,
+                                      "Study/Vary 3 = Platens/Friction static: 0.2, 0.25"});
   const std::vector<std::vector<double>> strengths(8, {30 * MPa, 31 * MPa});
   const std::vector<FailureEnvelope> envelopes = failure_envelopes(plan, strengths);
   ASSERT_EQ(envelopes.size(), 4u);
@@ -159,7 +160,7 @@ TEST(FailureEnvelopes, of_any_entries_have_the_name_of_all_that_is_varied_but_th
   EXPECT_EQ(envelopes[3].cases, (std::vector<std::size_t>{5, 7})); // rotation off, 0.25
   EXPECT_EQ(json_of(plan, envelopes)[3]["friction_static"], 0.25);
   const std::vector<FailureEnvelope> one =
-      failure_envelopes(plan_with(StudyKind::vary, {pressures, "Study/Seeds = 1"}), {{1}, {4}});
+      failure_envelopes(envelope_plan(StudyKind::vary, {pressures, "Study/Seeds = 1"}), {{1}, {4}});
   ASSERT_EQ(one.size(), 1u);
   EXPECT_EQ(one[0].name, "all");
   EXPECT_TRUE(one[0].packings.empty()); // the line is that of the packing

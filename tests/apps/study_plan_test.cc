@@ -72,7 +72,7 @@ TEST_F(PlannedStudy, is_ended_by_one_process_that_resumes_it) {
 // All are done but the one that can be met on the way.
 class MetStudy : public PlannedStudy {
 protected:
-  MetStudy() : inner_(folder_ / "a/runs" / met) {
+  MetStudy() : inner_(folder_ / "a/runs" / met_at_work) {
     kind_ = "size", options_ = slow;
     make_whole();
     ask(0, {"--plan"});
@@ -87,7 +87,7 @@ protected:
     ask(0, {"--run", "3"});
     ask(0, {"--collect"});
     expect_same();
-    EXPECT_FALSE(fs::exists(folder_ / "a/runs" / (std::string(met) + ".run.json")));
+    EXPECT_FALSE(fs::exists(folder_ / "a/runs" / (std::string(met_at_work) + ".run.json")));
   }
   const fs::path inner_;
 };
@@ -102,7 +102,7 @@ TEST_F(MetStudy, a_run_that_is_stopped_or_killed_goes_on_to_the_same_bytes) {
     EXPECT_EQ(summary_in(inner_)["status"], "stopped");
     rows = lines_in(inner_ / "history.csv") + 5;
   }
-  ask(3, {"--collect"}, std::string("3 of 4  ") + met + ": missing, stopped");
+  ask(3, {"--collect"}, std::string("3 of 4  ") + met_at_work + ": missing, stopped");
   Program program(third(), folder_);
   ASSERT_TRUE(at_work(program, rows)) << content_of(folder_ / "error.txt");
   const pid_t child = child_of(program.id());
@@ -111,7 +111,7 @@ TEST_F(MetStudy, a_run_that_is_stopped_or_killed_goes_on_to_the_same_bytes) {
   kill(child, SIGKILL); // as a batch system kills: both, at any moment
   program.send(SIGKILL);
   EXPECT_EQ(program.wait(), -SIGKILL);
-  ask(3, {"--collect"}, std::string(met) + ": missing, ");
+  ask(3, {"--collect"}, std::string(met_at_work) + ": missing, ");
   expect_whole();
   EXPECT_TRUE(contains(content_of(inner_ / "run.log"), "resumed at step"));
 }
@@ -132,9 +132,9 @@ TEST_F(MetStudy, two_at_once_for_the_same_run_are_one_and_a_refusal) {
   ASSERT_GT(child, 0);
   for (const pid_t process : {program.id(), child})
     kill(process, SIGSTOP); // else it might end while the other waits for it
-  ask(2, {"--run", "3"}, std::string("run 3 of the plan, ") + met + ", is at work already");
+  ask(2, {"--run", "3"}, std::string("run 3 of the plan, ") + met_at_work + ", is at work already");
   ask(0, {"--run", "4"}); // another is done meanwhile
-  ask(3, {"--collect"}, std::string("3 of 4  ") + met + ": missing, at work");
+  ask(3, {"--collect"}, std::string("3 of 4  ") + met_at_work + ": missing, at work");
   EXPECT_TRUE(contains(content_of(folder_ / "error.txt"),
                        "1 of 4 runs are missing: 3. Make them with: platen-study size"));
   EXPECT_EQ(words_in(folder_ / "a/study.csv", "status"), (Words{"done", "done", "missing", "done"}));

@@ -14,13 +14,13 @@
 namespace platen::apps::testing {
 namespace {
 
-StudyPlan plan_with(const Words &entries, StudyKind kind = StudyKind::friction) {
+StudyPlan platen_plan(const Words &entries, StudyKind kind = StudyKind::friction) {
   return plan_of(kind, with({no_radii}, entries));
 }
 
 TEST(PlatenStudyPlan, platens_run_within_slendernesses_in_the_order_of_the_lists) {
   const Words entries{"Study/Surface list = dry steel, 0.1, grease", "Study/Slenderness list = 2, 0.5"};
-  const StudyPlan plan = plan_with(entries);
+  const StudyPlan plan = platen_plan(entries);
   EXPECT_EQ(names_of(plan),
             (Words{"dry_steel_slenderness_2", "friction_0.1_slenderness_2", "grease_slenderness_2",
                    "dry_steel_slenderness_0.5", "friction_0.1_slenderness_0.5", "grease_slenderness_0.5"}));
@@ -32,7 +32,7 @@ TEST(PlatenStudyPlan, platens_run_within_slendernesses_in_the_order_of_the_lists
 
 TEST(PlatenStudyPlan, another_height_changes_nothing_else) {
   const Words entries{"Study/Slenderness list = 0.5, 2, 3"};
-  const StudyPlan plan = plan_with(entries, StudyKind::slenderness);
+  const StudyPlan plan = platen_plan(entries, StudyKind::slenderness);
   ASSERT_EQ(plan.cases.size(), 3u);
   EXPECT_EQ(plan.cases[2].surface, "friction 0.3");
   for (std::size_t k = 0; k < 3; ++k) {
@@ -46,7 +46,7 @@ TEST(PlatenStudyPlan, another_height_changes_nothing_else) {
   }
   const Words box{"Specimen/Shape = box",     "Specimen/Radius =",          "Specimen/Width x = 30 mm",
                   "Specimen/Width y = 20 mm", "Study/Slenderness list = 2", "Platens/Kind = deformable"};
-  const StudyPlan boxes = plan_with(box, StudyKind::slenderness);
+  const StudyPlan boxes = platen_plan(box, StudyKind::slenderness);
   EXPECT_DOUBLE_EQ(led_to(boxes.cases[0], 1, box).specimen.height, 0.04);
   EXPECT_DOUBLE_EQ(led_to(boxes.cases[0], 1, box).platens.thickness,
                    0.002); // of the scene's own height, 20 mm
@@ -54,7 +54,7 @@ TEST(PlatenStudyPlan, another_height_changes_nothing_else) {
 
 TEST(PlatenStudyPlan, heights_and_slendernesses_are_round_numbers) {
   const StudyPlan plan =
-      plan_with({"Specimen/Radius = 25 mm", "Study/Slenderness list = 3"}, StudyKind::slenderness);
+      platen_plan({"Specimen/Radius = 25 mm", "Study/Slenderness list = 3"}, StudyKind::slenderness);
   EXPECT_EQ(plan.cases[0].overrides.back(), "Specimen/Height = 0.15 m"); // 3 * 0.05 is more, by a bit
   EXPECT_EQ(plan.cases[0].labels[2], 3);
 }
@@ -66,7 +66,7 @@ TEST(PlatenStudyPlan, a_word_takes_back_what_the_scene_says_of_friction_and_cust
                       "Platens/Slip length = 1 mm",
                       "Platens/Attachment = glued",
                       "Study/Surface list = custom, dry steel, 0.1, glued"};
-  const StudyPlan plan = plan_with(entries);
+  const StudyPlan plan = platen_plan(entries);
   const auto platens = [&](std::size_t k) { return led_to(plan.cases[k], 1, entries).platens; };
   EXPECT_EQ(platens(0).top.friction_static, 0.4);
   EXPECT_EQ(platens(0).top.weakening.by, dem::Weakening::By::slip);
@@ -119,8 +119,8 @@ TEST(Laboratory, ratios_of_cubes_and_prisms_are_those_of_hughes_and_bahramian) {
 }
 
 TEST(Comparisons, ratios_are_taken_seed_by_seed_and_a_failed_run_counts_in_none) {
-  const StudyPlan plan = plan_with({"Study/Surface list = 0.57, grease, 0.03, glued",
-                                    "Study/Slenderness list = 1, 2, 2.4", "Study/Seeds = 3"});
+  const StudyPlan plan = platen_plan({"Study/Surface list = 0.57, grease, 0.03, glued",
+                                      "Study/Slenderness list = 1, 2, 2.4", "Study/Seeds = 3"});
   std::vector<std::vector<double>> strengths(12, {30, 33, 36});
   strengths[0] = {45, 66, std::nan("")}; // dry, 1
   strengths[4] = {30, 44, 72};           // dry, 2
@@ -162,7 +162,7 @@ TEST(Comparisons, ratios_are_taken_seed_by_seed_and_a_failed_run_counts_in_none)
 // Of a material that nobody calibrated for platens, or for short specimens, a study has strengths and no
 // ratios.
 TEST(Comparisons, need_bonds_that_are_calibrated_for_them) {
-  const StudyPlan plan = plan_with({"Study/Surface list = 0.57, grease", "Study/Slenderness list = 1, 2"});
+  const StudyPlan plan = platen_plan({"Study/Surface list = 0.57, grease", "Study/Slenderness list = 1, 2"});
   const std::vector<std::vector<double>> strengths{{60, 60}, {30, 30}, {40, 40}, {30, 30}};
   using Figure = CalibratedFigure;
   const auto of = [&](const std::vector<Figure> &figures) {
@@ -194,7 +194,7 @@ TEST(Comparisons, need_bonds_that_are_calibrated_for_them) {
 }
 
 TEST(Comparisons, outside_the_range_of_the_laboratory_are_told_as_outside) {
-  const StudyPlan plan = plan_with({"Study/Surface list = 0.57, grease", "Study/Slenderness list = 1, 2"});
+  const StudyPlan plan = platen_plan({"Study/Surface list = 0.57, grease", "Study/Slenderness list = 1, 2"});
   const auto bearing = [&](double cube, double slender) {
     return compare(plan, {{cube, cube}, {30, 30}, {slender, slender}, {30, 30}});
   };
@@ -229,13 +229,14 @@ TEST(Comparisons, outside_the_range_of_the_laboratory_are_told_as_outside) {
 }
 
 // Three platens and two heights on one seed: six runs of a tenth of a second.
-const Words small = set({"Study/Surface list = dry steel, 0.1, grease", "Study/Slenderness list = 1, 2",
-                         no_radii, "Study/Seeds = 1", "Loading/Target strain = 0.03"});
+const Words small_platens =
+    set({"Study/Surface list = dry steel, 0.1, grease", "Study/Slenderness list = 1, 2", no_radii,
+         "Study/Seeds = 1", "Loading/Target strain = 0.03"});
 // One height, and two platens.
 const Words two = set({"Study/Surface list = 0.3, grease", "Study/Seeds = 1"});
 
 TEST_F(Study, of_friction_has_a_row_for_each_run_and_compares_their_strengths) {
-  const Outcome outcome = run("a", with(small, {"-t", "2"}), "friction");
+  const Outcome outcome = run("a", with(small_platens, {"-t", "2"}), "friction");
   ASSERT_EQ(outcome.status, 0) << outcome.error;
   const fs::path csv = folder_ / "a/study.csv";
   EXPECT_EQ(words_in(csv, "surface"),
@@ -268,13 +269,13 @@ TEST_F(Study, of_friction_has_a_row_for_each_run_and_compares_their_strengths) {
   }
   EXPECT_EQ(lines_in(folder_ / "a/costs.csv"), 7);
 
-  ASSERT_EQ(run("one", small, "friction").status, 0);
+  ASSERT_EQ(run("one", small_platens, "friction").status, 0);
   expect_same_tables("one", "a");
 }
 
 TEST_F(Study, of_one_run_gives_it_all_threads) {
   const Words single =
-      with(with(small, {"-t", "3"}), set({"Study/Surface list = 0.3", "Study/Slenderness list = 1"}));
+      with(with(small_platens, {"-t", "3"}), set({"Study/Surface list = 0.3", "Study/Slenderness list = 1"}));
   ASSERT_EQ(run("a", single, "friction").status, 0);
   EXPECT_EQ(summary_in(folder_ / "a/runs/friction_0.3_slenderness_1_seed_3")["threads"],
             std::min(3u, std::thread::hardware_concurrency())); // no more than there are cores
@@ -282,7 +283,7 @@ TEST_F(Study, of_one_run_gives_it_all_threads) {
 
 // Killed without a word again and again, at once taken up.
 TEST_F(Study, of_friction_killed_at_random_comes_to_the_same_table) {
-  expect_the_same_however_often_killed(with(small, set({"Study/Slenderness list = 1"})), "friction");
+  expect_the_same_however_often_killed(with(small_platens, set({"Study/Slenderness list = 1"})), "friction");
 }
 
 // A fall by 2 % is a peak; damage is measured at a fall to 0.8, which may be beyond the target strain.

@@ -138,6 +138,6 @@ protected:
 
 // A study of four runs of which the third, fine enough, is met at work.
 inline const Words slow = set({"Study/Sphere radius list = 2 mm, 0.9 mm"});
-inline const char *const met = "sphere_radius_0.9_mm_seed_3";
+inline const char *const met_at_work = "sphere_radius_0.9_mm_seed_3";
 
 } // namespace platen::apps::testing

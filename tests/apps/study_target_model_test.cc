@@ -10,17 +10,17 @@
 namespace platen::apps::testing {
 namespace {
 
-const std::vector<double> speeds{15, 30, 60, 120};
+const std::vector<double> four_speeds{15, 30, 60, 120};
 
 TargetRuns runs_of(const Counts &counts) {
-  return drawn_state({}, speeds, counts).runs;
+  return drawn_state({}, four_speeds, counts).runs;
 }
 
 TEST(TargetModel, a_law_without_scatter_is_found_exactly) {
-  TargetRuns runs{speeds, {}};
+  TargetRuns runs{four_speeds, {}};
   for (const double packing : {-0.02, 0.01, 0.01}) {
     runs.logs.emplace_back();
-    for (const double n : speeds)
+    for (const double n : four_speeds)
       runs.logs.back().push_back(3.5 + 1.25 / n + packing);
   }
   runs.logs.push_back({3.5 + 1.25 / 15, std::nan(""), std::nan(""), std::nan("")});
@@ -50,7 +50,7 @@ TEST(TargetModel, two_speeds_on_all_packings_are_an_analysis_of_variance) {
 }
 
 TEST(TargetModel, freedom_is_that_of_the_packings_where_they_alone_scatter) {
-  const auto precision = precision_of({{1U, 4}, {5U, 6}}, speeds, {{4e-4, 1e-10}, {}, 1});
+  const auto precision = precision_of({{1U, 4}, {5U, 6}}, four_speeds, {{4e-4, 1e-10}, {}, 1});
   ASSERT_TRUE(precision);
   EXPECT_NEAR(precision->freedom, 9, 1e-3); // ten packings, one mean
   EXPECT_NEAR(precision->packing, 4e-4 / 10, 1e-9);
@@ -60,8 +60,8 @@ TEST(TargetModel, freedom_is_that_of_the_packings_where_they_alone_scatter) {
 }
 
 TEST(TargetModel, what_cannot_be_told_is_not_told) {
-  EXPECT_FALSE(precision_of({{1U, 20}}, speeds, {{1e-4, 1e-4}, {}, 1})); // one speed has no slope
-  EXPECT_FALSE(estimate(runs_of({20, 0, 0, 0}), {}));                    // nor tells chaos from packings
+  EXPECT_FALSE(precision_of({{1U, 20}}, four_speeds, {{1e-4, 1e-4}, {}, 1})); // one speed has no slope
+  EXPECT_FALSE(estimate(runs_of({20, 0, 0, 0}), {}));                         // nor tells chaos from packings
   EXPECT_FALSE(estimate(runs_of({1, 1, 0, 0}), {}));
   EXPECT_TRUE(estimate(runs_of({2, 2, 0, 0}), {}));
 }
@@ -76,7 +76,7 @@ Coverage coverage_of(const MadeUpFigure &figure, const Counts &counts, int studi
   MadeUpRuns drawn(figure, 20);
   for (int k = 0; k < studies; ++k) {
     TargetState state;
-    drawn.begin(state, speeds);
+    drawn.begin(state, four_speeds);
     drawn.make(state, counts);
     const auto found = estimate(state.runs, {});
     const double error = std::abs(found->mean - figure.mean);

@@ -8,10 +8,10 @@
 namespace platen::apps::testing {
 namespace {
 
-const std::vector<double> speeds{15, 60};
+const std::vector<double> two_speeds{15, 60};
 
-TargetRuns runs_of(const MadeUpFigure &figure, std::size_t packings) {
-  return drawn_state(figure, speeds, {packings, packings}, 5).runs;
+TargetRuns runs_of_figure(const MadeUpFigure &figure, std::size_t packings) {
+  return drawn_state(figure, two_speeds, {packings, packings}, 5).runs;
 }
 
 Spread by_analysis(const TargetRuns &runs) {
@@ -20,7 +20,7 @@ Spread by_analysis(const TargetRuns &runs) {
 
 // A prior of the very spread that runs have, whatever its weight, changes nothing.
 TEST(TargetSpread, a_prior_that_runs_confirm_leaves_the_spread) {
-  const TargetRuns runs = runs_of({3.5, 1.2, 1, 0.03, 0.01}, 6);
+  const TargetRuns runs = runs_of_figure({3.5, 1.2, 1, 0.03, 0.01}, 6);
   const Spread found = by_analysis(runs);
   ASSERT_GT(found.packing, 0);
   for (const double freedom : {0.0, 1.0, 4.0, 100.0}) {
@@ -43,7 +43,7 @@ double minus_twice_log(const Spread &at, const Spread &analysed, double freedom,
 }
 
 TEST(TargetSpread, is_the_most_likely_of_runs_and_prior) {
-  const TargetRuns runs = runs_of({3.5, 1.2, 1, 0.03, 0.01}, 5);
+  const TargetRuns runs = runs_of_figure({3.5, 1.2, 1, 0.03, 0.01}, 5);
   const SpreadPrior prior{{2e-4, 4e-4}, 3, 5};
   const Spread found = *spread_of(runs, prior), analysed = by_analysis(runs);
   const double lowest = minus_twice_log(found, analysed, 4, prior);
@@ -62,8 +62,8 @@ TEST(TargetSpread, degrees_known_beforehand_add_to_those_of_runs) {
   EXPECT_NEAR(freedom_of(ten, 2, still, {}, {1, 1}), 9, 0.01);
 }
 
-// Two packings at two speeds: a degree of chaos, one of chaos + 2 packing. Information of both, and of F with
-// four degrees each, inverted by hand.
+// Two packings at two speeds: a degree of chaos, one of chaos + 2 packing. Information of both, and of F
+// with four degrees each, inverted by hand.
 TEST(TargetSpread, a_ratio_known_beforehand_lends_chaos_what_packings_tell) {
   const Design two{{3U, 2}};
   const Spread spread{4e-4, 1e-4};
@@ -79,7 +79,8 @@ TEST(TargetSpread, runs_outweigh_a_prior_that_is_wrong) {
   const MadeUpFigure figure{3.5, 1.2, 1, 0.03, 0.01};
   for (const double wrong : {1.0 / 9, 9.0}) { // of the variances
     const SpreadPrior prior{{wrong * 9e-4, wrong * 1e-4}, 1, 4};
-    const auto few = spread_of(runs_of(figure, 3), prior), many = spread_of(runs_of(figure, 40), prior);
+    const auto few = spread_of(runs_of_figure(figure, 3), prior),
+               many = spread_of(runs_of_figure(figure, 40), prior);
     EXPECT_NEAR(std::log(many->packing / 9e-4), 0, 0.5) << wrong;
     EXPECT_NEAR(std::log(many->chaos / 1e-4), 0, 0.5) << wrong;
     ASSERT_TRUE(few);
@@ -95,8 +96,8 @@ TEST(TargetSpread, is_told_by_two_packings_run_twice_and_a_run_beyond_means) {
 
 TEST(TargetSpread, a_prior_alone_tells_nothing) {
   const SpreadPrior prior{{4e-4, 1e-4}, 50, 50};
-  EXPECT_FALSE(spread_of(runs_of({}, 1), prior));
-  EXPECT_TRUE(spread_of(runs_of({}, 2), prior));
+  EXPECT_FALSE(spread_of(runs_of_figure({}, 1), prior));
+  EXPECT_TRUE(spread_of(runs_of_figure({}, 2), prior));
 }
 
 } // namespace

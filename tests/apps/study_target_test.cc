@@ -16,13 +16,13 @@ const std::string is_gain = "Study/Target/Figure = gain",
                   over_free_ends =
                       "Study/Target/Over = Platens/Friction static=0, Platens/Friction dynamic = 0";
 
-StudyPlan plan_with(const Words &entries) {
+StudyPlan target_plan(const Words &entries) {
   return plan_of(StudyKind::target, with(base, entries));
 }
 
 TEST(TargetCases, are_the_scene_at_each_speed_and_what_a_gain_is_over) {
   const StudyPlan plan =
-      plan_with({is_gain, over_free_ends, "Study/Target/Step seeds = 2", "Study/Target/Coarser seeds = 2"});
+      target_plan({is_gain, over_free_ends, "Study/Target/Step seeds = 2", "Study/Target/Coarser seeds = 2"});
   EXPECT_EQ(names_of(plan), (Words{"wave_crossings_2", "wave_crossings_4", "wave_crossings_8",
                                    "over_wave_crossings_2", "over_wave_crossings_4", "over_wave_crossings_8",
                                    "half_step_wave_crossings_2", "half_step_over_wave_crossings_2",
@@ -51,8 +51,8 @@ protected:
 
 TEST_F(OverScene, halves_its_own_step_and_coarsens_its_own_spheres) {
   const StudyPlan plan =
-      plan_with(gain_over("subsection Integration\n  set Safety = 0.4\nend\n"
-                          "subsection Specimen\n  set Sphere radius = 2.4 mm\nend\n"));
+      target_plan(gain_over("subsection Integration\n  set Safety = 0.4\nend\n"
+                            "subsection Specimen\n  set Sphere radius = 2.4 mm\nend\n"));
   const auto run_by = [&](std::size_t k) { return led_to(plan.cases[k], 3, base); };
   const TargetCases cases{3, 2, true, true};
   EXPECT_EQ(run_by(cases.at(0, 2)).specimen.sphere_radius, 2e-3);
@@ -67,7 +67,7 @@ TEST_F(OverScene, halves_its_own_step_and_coarsens_its_own_spheres) {
 
 TEST_F(OverScene, without_a_strength_is_refused) {
   const auto says = [&](const std::string &text) {
-    return message_of<InputError>([&] { plan_with(gain_over(text)); });
+    return message_of<InputError>([&] { target_plan(gain_over(text)); });
   };
   std::string message = says("subsection Loading\n  set Test = hydrostatic\nend\n");
   EXPECT_TRUE(contains(message, "over_wave_crossings_2, which cannot be run")) << message;

@@ -74,7 +74,7 @@ TEST_F(Study, one_stopped_by_a_signal_goes_on_to_the_same_table) {
   for (const int signal : {SIGTERM, SIGINT}) {
     const std::string name = "stopped_" + std::to_string(signal);
     Program program(command(name, slow), folder_);
-    const fs::path inner = folder_ / name / "runs" / met;
+    const fs::path inner = folder_ / name / "runs" / met_at_work;
     ASSERT_TRUE(program.wait_until([&] { return lines_in(inner / "history.csv") >= 20; }))
         << content_of(folder_ / "error.txt");
     program.send(signal);
@@ -92,7 +92,7 @@ TEST_F(Study, one_stopped_by_a_signal_goes_on_to_the_same_table) {
 TEST_F(Study, a_killed_one_leaves_no_run_behind_and_goes_on) {
   ASSERT_EQ(run("whole", slow).status, 0);
   Program program(command("killed", slow), folder_);
-  const fs::path inner = folder_ / "killed/runs" / met;
+  const fs::path inner = folder_ / "killed/runs" / met_at_work;
   ASSERT_TRUE(program.wait_until([&] { return lines_in(inner / "history.csv") >= 20; }));
   program.send(SIGKILL);
   EXPECT_EQ(program.wait(), -SIGKILL);

@@ -94,7 +94,7 @@ const std::vector<Case> cases{
       "Bond/Compression slopes = 2, 4, 8"},
      {"plastic_work_j"}}};
 
-class ToldAfterRead : public testing::TestWithParam<Case> {};
+class ToldAfterRead : public ::testing::TestWithParam<Case> {};
 
 TEST_P(ToldAfterRead, is_what_was_told_before) {
   const Case &of = GetParam();
@@ -136,12 +136,12 @@ TEST_P(ToldAfterRead, is_what_was_told_before) {
   EXPECT_EQ(was.residual(), is.residual());
 }
 
-std::string name_of_case(const testing::TestParamInfo<Case> &info) {
+std::string name_of_case(const ::testing::TestParamInfo<Case> &info) {
   std::string name = info.param.name;
   std::replace(name.begin(), name.end(), ' ', '_');
   return name;
 }
-INSTANTIATE_TEST_SUITE_P(Parts, ToldAfterRead, testing::ValuesIn(cases), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Parts, ToldAfterRead, ::testing::ValuesIn(cases), name_of_case);
 
 // A state that was written before these numbers were kept says that it does not know them.
 TEST(ToldAfterReadOfOlderStates, is_no_number_until_the_next_step) {

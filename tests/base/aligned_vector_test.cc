@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <numeric>
 
-namespace platen {
+namespace platen::aligned_vector_test {
 namespace {
 
 template <class T>
@@ -28,4 +28,4 @@ TEST(AlignedVector, begins_at_a_cache_line_however_it_grows) {
 }
 
 } // namespace
-} // namespace platen
+} // namespace platen::aligned_vector_test

@@ -6,7 +6,7 @@
 
 #include "tests/same_state.h"
 
-namespace platen {
+namespace platen::archive_test {
 namespace {
 
 enum class Phase : int { loading = 3, unloading = 7 };
@@ -339,4 +339,4 @@ TEST(state, the_first_difference_is_told_by_name_row_and_number) {
 }
 
 } // namespace
-} // namespace platen
+} // namespace platen::archive_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace platen {
+namespace platen::characters_test {
 namespace {
 
 TEST(Characters, what_cannot_be_seen_is_named_with_its_column) {
@@ -44,4 +44,4 @@ TEST(Characters, two_signs_for_micro_are_one) {
 }
 
 } // namespace
-} // namespace platen
+} // namespace platen::characters_test

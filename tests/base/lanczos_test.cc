@@ -7,7 +7,7 @@
 
 #include "base/pi.h"
 
-namespace platen {
+namespace platen::lanczos_test {
 namespace {
 
 struct Chain {
@@ -130,4 +130,4 @@ TEST(lanczos, bisection_finds_the_ritz_value_of_a_long_matrix_and_its_component)
 }
 
 } // namespace
-} // namespace platen
+} // namespace platen::lanczos_test

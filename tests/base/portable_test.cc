@@ -8,7 +8,7 @@
 
 #include "base/random.h"
 
-namespace platen {
+namespace platen::portable_test {
 namespace {
 
 using Function = std::function<double(double)>;
@@ -114,4 +114,4 @@ TEST(Portable, ends_of_their_ranges_are_those_of_the_c_library) {
 }
 
 } // namespace
-} // namespace platen
+} // namespace platen::portable_test

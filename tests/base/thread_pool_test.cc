@@ -14,7 +14,7 @@
 
 #include "base/parallel.h"
 
-namespace platen {
+namespace platen::thread_pool_test {
 namespace {
 
 template <class Part>
@@ -231,4 +231,4 @@ TEST(hardware_threads, are_those_that_the_process_may_run_on) {
 }
 
 } // namespace
-} // namespace platen
+} // namespace platen::thread_pool_test

@@ -13,7 +13,7 @@
 #include "tests/coupling/set_ups.h"
 #include "tests/same_state.h"
 
-namespace platen::coupling {
+namespace platen::coupling::cell_test {
 namespace {
 
 PlatenTestSettings lubricated() {
@@ -238,4 +238,4 @@ TEST(sleeve_cell, loads_of_every_step_are_there_for_who_asks) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::cell_test

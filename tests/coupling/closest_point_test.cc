@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace platen::coupling {
+namespace platen::coupling::closest_point_test {
 namespace {
 
 class Draw {
@@ -227,4 +227,4 @@ TEST(closest_point, the_normal_of_a_quad_without_area_is_zero_and_never_not_a_nu
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::closest_point_test

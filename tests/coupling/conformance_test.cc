@@ -5,7 +5,7 @@
 #include "tests/coupling/set_ups.h"
 #include "tests/same_state.h"
 
-namespace platen::coupling {
+namespace platen::coupling::conformance_test {
 namespace {
 
 struct Arrangement {
@@ -38,7 +38,7 @@ void add_loadings(std::vector<Arrangement> &all) {
     for (const PlatenKind &kind : {rigid_kind, yielding, followed}) {
       PlatenTestSettings s = with(loading.settings, kind);
       make_brittle(s);
-      s.platens.material.young_modulus = steel;
+      s.platens.material.young_modulus = steel_modulus;
       s.model.contact->damping = dem::ContactSettings{}.damping;
       s.seat = s.ends == Ends::ground;
       s.loading.rate = 0.5;
@@ -176,4 +176,4 @@ INSTANTIATE_TEST_SUITE_P(set_ups, Conformance, testing::ValuesIn(set_ups()),
                          [](const testing::TestParamInfo<Arrangement> &s) { return s.param.name; });
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::conformance_test

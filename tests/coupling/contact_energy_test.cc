@@ -8,12 +8,12 @@
 
 #include "base/pi.h"
 
-namespace platen::coupling {
+namespace platen::coupling::contact_energy_test {
 namespace {
 
 // Steps as a share of the period of a sphere on its contact spring.
 double step_of(const SphereScene &scene, double share) {
-  return share * 2 * pi * std::sqrt(scene.particles.mass[0] / stiffness);
+  return share * 2 * pi * std::sqrt(scene.particles.mass[0] / plate_stiffness);
 }
 
 // Free flight, contact, free flight. Returns the relative loss of kinetic energy not found in the works.
@@ -79,7 +79,7 @@ TEST(contact_energy, restitution_is_that_of_a_spring_and_a_dashpot_that_cannot_p
 // keeps.
 TEST(contact_energy, a_sliding_sphere_stops_when_friction_has_taken_its_energy) {
   SphereScene scene(plate(0.01, 40), {{-0.008, 0.0003, 0.9999 * sphere_radius}}, frictional(0.4, 0.4), false);
-  const double weight = stiffness * 1e-4 * sphere_radius;
+  const double weight = plate_stiffness * 1e-4 * sphere_radius;
   scene.gravity = {0, 0, -weight / scene.particles.mass[0]};
   scene.particles.velocity[0] = {1.2, 0.2, 0};
   const double before = scene.kinetic_energy(), dt = step_of(scene, 0.02);
@@ -98,7 +98,7 @@ TEST(contact_energy, a_sliding_sphere_stops_when_friction_has_taken_its_energy) 
 // Backspin, slide, then rolling: a billiard ball on no-slip terms ends at v = 5/7 v0 - 2/7 r w0.
 TEST(contact_energy, a_sliding_ball_ends_rolling_at_five_sevenths_of_its_speed) {
   SphereScene scene(plate(0.01, 40), {{-0.009, 0.0003, 0.9999 * sphere_radius}}, frictional(0.3, 0.3));
-  const double weight = stiffness * 1e-4 * sphere_radius, r = 0.9999 * sphere_radius;
+  const double weight = plate_stiffness * 1e-4 * sphere_radius, r = 0.9999 * sphere_radius;
   scene.gravity = {0, 0, -weight / scene.particles.mass[0]};
   scene.particles.velocity[0] = {0.4, 0, 0};
   const double dt = step_of(scene, 0.01), before = scene.kinetic_energy();
@@ -156,4 +156,4 @@ TEST(contact_energy, a_moving_plate_puts_in_what_the_energy_balance_shows) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::contact_energy_test

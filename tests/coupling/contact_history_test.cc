@@ -13,7 +13,7 @@
 #include "tests/measured.h"
 #include "tests/same_state.h"
 
-namespace platen::coupling {
+namespace platen::coupling::contact_history_test {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -39,7 +39,7 @@ TEST(contact_history, ten_thousand_facets_take_nothing_from_a_spring) {
   scene.particles.velocity[0] = {0, 0.2, 0};
   scene.carry(on_strip);
   const Vector3 stretched = scene.layer.contacts()[0].shear;
-  EXPECT_NEAR(stretched.y, -0.8 * stiffness * 0.2 * on_strip, 1e-12);
+  EXPECT_NEAR(stretched.y, -0.8 * plate_stiffness * 0.2 * on_strip, 1e-12);
   scene.particles.velocity[0] = {way / on_strip, 0, 0};
   (*scene.particles.angular_velocity)[0] = {0, way / on_strip / (0.99 * sphere_radius), 0};
   int crossings = 0, face = scene.layer.contacts()[0].face;
@@ -63,8 +63,8 @@ TEST(contact_history, sliding_over_ten_thousand_facets_measures_the_path) {
   const int steps = 29900;
   for (int n = 0; n < steps; ++n)
     scene.carry(on_strip);
-  const double normal = stiffness * 0.01 * sphere_radius,
-               slid = way * steps - 0.4 * normal / (0.8 * stiffness); // less what the spring took up
+  const double normal = plate_stiffness * 0.01 * sphere_radius,
+               slid = way * steps - 0.4 * normal / (0.8 * plate_stiffness); // less what the spring took up
   measured::expect_below(21, "error_of_path", std::abs(scene.layer.contacts()[0].slip / slid - 1), 1e-9);
   // The first step loads the spring and slides: the trapezoid counts half of it.
   EXPECT_NEAR(scene.layer.friction_work, 0.4 * normal * slid, 0.4 * normal * way);
@@ -77,7 +77,7 @@ TEST(contact_history, losing_contact_clears_it) {
     scene.carry(1e-5);
   EXPECT_GT(scene.layer.contacts()[0].slip, 0.0);
   const double before = scene.layer.friction_work, stored = scene.layer.elastic_energy();
-  const double spring = norm_squared(scene.layer.contacts()[0].shear) / (2 * 0.8 * stiffness);
+  const double spring = norm_squared(scene.layer.contacts()[0].shear) / (2 * 0.8 * plate_stiffness);
   ASSERT_GT(stored, spring);
   scene.particles.velocity[0] = {0, 0, 3};
   scene.carry(1e-5);
@@ -232,7 +232,7 @@ TEST(contact_history, a_seat_rocks_on_its_spring_up_to_its_limit) {
   SphereScene scene(plate(0.01, 6), {{0.001, 0.0004, sphere_radius}}, contact);
   scene.layer.seat_within(scene.particles, scene.body, 0.1 * sphere_radius);
   const double normal = 50; // N
-  scene.particles.position[0].z -= normal / stiffness;
+  scene.particles.position[0].z -= normal / plate_stiffness;
   scene.compute_forces(0);
   const double k = 2 * 40e9 * pi * 1e-9 / 8, h = 1e-5, limit = 0.5 * normal * sphere_radius;
   // Rolls about its contact point: no slip there, so the torque is the seat's alone.
@@ -252,4 +252,4 @@ TEST(contact_history, a_seat_rocks_on_its_spring_up_to_its_limit) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::contact_history_test

@@ -9,18 +9,18 @@
 #include "sphere_scene.h"
 #include "tests/measured.h"
 
-namespace platen::coupling {
+namespace platen::coupling::contact_plate_test {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // The closed form beside which everything is held: plane z = 0, spring along it, written without any mesh.
 struct PlaneContact {
-  double friction_static, friction_dynamic, k_t = 0.8 * stiffness;
+  double friction_static, friction_dynamic, k_t = 0.8 * plate_stiffness;
   Vector3 spring;
   bool sliding = false;
   Vector3 force(double height, const Vector3 &velocity, double dt) {
-    const double normal = stiffness * std::max(0.0, sphere_radius - height);
+    const double normal = plate_stiffness * std::max(0.0, sphere_radius - height);
     Vector3 t = spring - k_t * dt * Vector3{velocity.x, velocity.y, 0};
     const double size = norm(t);
     if (size > (sliding ? friction_dynamic : friction_static) * normal) {
@@ -55,7 +55,7 @@ TEST_P(DraggedSphere, feels_a_plane_however_the_plate_is_meshed) {
   for (const Way &way : ways) {
     SphereScene scene(plate(0.01, GetParam()), {way.start + Vector3{0, 0, 0.995 * sphere_radius}},
                       frictional(0.5, 0.3));
-    PlaneContact plane{0.5, 0.3, 0.8 * stiffness, {}, false};
+    PlaneContact plane{0.5, 0.3, 0.8 * plate_stiffness, {}, false};
     const double dt = 1e-5;
     const int steps = 3000;
     const double speed = 0.012 / norm(way.direction) / (steps * dt);
@@ -90,7 +90,7 @@ TEST_P(DraggedSphere, has_no_ripple_without_friction) {
       scene.carry(1e-5);
       ASSERT_EQ(scene.particles.force[0].x, 0.0) << way.name << n;
       ASSERT_EQ(scene.particles.force[0].y, 0.0) << way.name << n;
-      ASSERT_EQ(scene.particles.force[0].z, stiffness * overlap) << way.name << n;
+      ASSERT_EQ(scene.particles.force[0].z, plate_stiffness * overlap) << way.name << n;
     }
     EXPECT_EQ(scene.layer.friction_work, 0.0);
   }
@@ -115,10 +115,10 @@ TEST(contact_plate, a_skew_plate_feels_like_a_level_one) {
   SphereScene scene(std::move(body), {top - 0.006 * along + 0.995 * sphere_radius * up},
                     frictional(0.4, 0.4));
   scene.particles.velocity[0] = 1.2 * along;
-  const double normal = stiffness * 0.005 * sphere_radius;
+  const double normal = plate_stiffness * 0.005 * sphere_radius;
   for (int n = 0; n < 1000; ++n) {
     scene.carry(1e-5);
-    const double sliding = std::min(0.4 * normal, 0.8 * stiffness * 1.2 * 1e-5 * (n + 1));
+    const double sliding = std::min(0.4 * normal, 0.8 * plate_stiffness * 1.2 * 1e-5 * (n + 1));
     ASSERT_LT(norm(scene.particles.force[0] - (normal * up - sliding * along)), 1e-11 * normal);
   }
 }
@@ -130,13 +130,13 @@ TEST(contact_plate, the_softest_corner_of_a_face_bounds_its_springs) {
     contact.face_compliance.assign(plate(0.01, 1).surface().faces.size(), fem::FaceCompliance{});
     for (fem::FaceCompliance &c : contact.face_compliance)
       for (int corner = 0; corner < 4; ++corner)
-        c[corner][corner] = (corner == softest ? 0.2 : 0.05) / stiffness;
+        c[corner][corner] = (corner == softest ? 0.2 : 0.05) / plate_stiffness;
     SphereScene scene(plate(0.01, 1), {{0, 0, 0.99 * sphere_radius}}, contact, false);
     scene.carry(1e-9);
     return scene.layer.ground_springs(scene.particles, scene.body).at(0).normal_stiffness;
   };
   const double nowhere = spring(-1);
-  EXPECT_GT(nowhere, stiffness);
+  EXPECT_GT(nowhere, plate_stiffness);
   EXPECT_GT(spring(0), 1.1 * nowhere);
   for (int corner = 1; corner < 4; ++corner)
     EXPECT_EQ(spring(corner), spring(0)) << corner;
@@ -144,7 +144,7 @@ TEST(contact_plate, the_softest_corner_of_a_face_bounds_its_springs) {
 
 TEST(contact_plate, sliding_starts_at_the_static_limit_and_goes_on_at_the_dynamic_one) {
   SphereScene scene(plate(0.01, 10), {{-0.005, 0.001, 0.99 * sphere_radius}}, frictional(0.57, 0.3));
-  const double normal = stiffness * 0.01 * sphere_radius, dt = 1e-6;
+  const double normal = plate_stiffness * 0.01 * sphere_radius, dt = 1e-6;
   scene.particles.velocity[0] = {0.01, 0, 0};
   double largest = 0;
   for (int n = 0; n < 2000; ++n) {
@@ -157,7 +157,7 @@ TEST(contact_plate, sliding_starts_at_the_static_limit_and_goes_on_at_the_dynami
   }
   // One step adds k_t v dt to the force: so close below the limit was the last that held.
   EXPECT_LE(largest, 0.57 * normal);
-  EXPECT_GT(largest, 0.57 * normal - 0.8 * stiffness * 0.01 * dt * 1.001);
+  EXPECT_GT(largest, 0.57 * normal - 0.8 * plate_stiffness * 0.01 * dt * 1.001);
   EXPECT_TRUE(scene.layer.contacts()[0].sliding);
 }
 
@@ -170,7 +170,7 @@ TEST(contact_plate, a_seat_has_its_own_zero) {
     EXPECT_EQ(scene.particles.force[0].z, 0.0);
     scene.particles.position[0].z -= 1e-6;
     scene.compute_forces(0);
-    EXPECT_NEAR(scene.particles.force[0].z, stiffness * 1e-6, 1e-9 * stiffness * 1e-6);
+    EXPECT_NEAR(scene.particles.force[0].z, plate_stiffness * 1e-6, 1e-9 * plate_stiffness * 1e-6);
     scene.particles.position[0].z += 2e-6;
     scene.compute_forces(0);
     EXPECT_EQ(scene.particles.force[0].z, 0.0);
@@ -209,11 +209,12 @@ TEST(contact_plate, glue_holds_in_tension_and_shear) {
   scene.particles.velocity[0] = {0.002, 0, 0.01};
   for (int n = 0; n < 1000; ++n)
     scene.carry(1e-5);
-  EXPECT_NEAR(scene.particles.force[0].z, -stiffness * 1e-4, 1e-9 * stiffness * 1e-4);
-  EXPECT_NEAR(scene.particles.force[0].x, -0.8 * stiffness * 2e-5, 1e-9 * stiffness * 1e-4);
+  EXPECT_NEAR(scene.particles.force[0].z, -plate_stiffness * 1e-4, 1e-9 * plate_stiffness * 1e-4);
+  EXPECT_NEAR(scene.particles.force[0].x, -0.8 * plate_stiffness * 2e-5, 1e-9 * plate_stiffness * 1e-4);
   EXPECT_EQ(scene.layer.friction_work, 0.0);
   // What was put in by hand is all stored.
-  EXPECT_NEAR(scene.layer.elastic_energy(), 0.5 * stiffness * (1e-8 + 0.8 * 4e-10), 1e-9 * stiffness * 1e-8);
+  EXPECT_NEAR(scene.layer.elastic_energy(), 0.5 * plate_stiffness * (1e-8 + 0.8 * 4e-10),
+              1e-9 * plate_stiffness * 1e-8);
 }
 
 TEST(contact_plate, a_sphere_on_no_slip_ground_rolls) {
@@ -221,7 +222,7 @@ TEST(contact_plate, a_sphere_on_no_slip_ground_rolls) {
   // Pulled by a force at its centre it accelerates with F / (m + I/r^2); the spring's vibration averages out.
   const double dt = 2e-7, pull = 0.02, r = 0.999 * sphere_radius;
   scene.gravity = {pull / scene.particles.mass[0], 0,
-                   -stiffness * 1e-3 * sphere_radius / scene.particles.mass[0]};
+                   -plate_stiffness * 1e-3 * sphere_radius / scene.particles.mass[0]};
   scene.compute_forces(0);
   const int steps = 20000;
   for (int n = 0; n < steps; ++n)
@@ -254,7 +255,7 @@ TEST(contact_plate, force_is_continuous_over_the_rim) {
     }
     EXPECT_GT(touching, 100);
     EXPECT_EQ(scene.layer.contacts().size(), 0u); // it has left
-    EXPECT_LE(change[level], 4 * stiffness * speed * dt);
+    EXPECT_LE(change[level], 4 * plate_stiffness * speed * dt);
   }
   EXPECT_NEAR(change[0] / change[1], 2, 0.2);
 }
@@ -319,4 +320,4 @@ TEST(contact_plate, parameters_out_of_range_are_refused_by_name) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::contact_plate_test

@@ -7,7 +7,7 @@
 
 #include "coupling/program/widening_task.h"
 
-namespace platen::coupling {
+namespace platen::coupling::controlled_test {
 namespace {
 
 using namespace seen;
@@ -192,4 +192,4 @@ TEST(controlled, a_stage_that_ends_at_a_stress_asks_no_more) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::controlled_test

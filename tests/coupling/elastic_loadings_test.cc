@@ -7,13 +7,13 @@
 
 #include "tests/measured.h"
 
-namespace platen::coupling {
+namespace platen::coupling::elastic_loadings_test {
 namespace {
 
 // Load on rigid platens over that on stiff ones that are led alike, less one, at 10, 100 and 1000 times the
 // modulus of steel.
 std::array<double, 3> shortfalls(const dem::Specimen &specimen, PlatenTestSettings rigid, long steps) {
-  PlatenTestSettings yields = elastic(rigid, ElasticMotion::quasi_static, steel);
+  PlatenTestSettings yields = elastic(rigid, ElasticMotion::quasi_static, steel_modulus);
   rigid.time_step.fixed_step = yields.time_step.fixed_step = 0.5 * PlatenTest(specimen, rigid).time_step();
   PlatenTest reference(specimen, rigid);
   advance_to(reference, steps);
@@ -21,7 +21,7 @@ std::array<double, 3> shortfalls(const dem::Specimen &specimen, PlatenTestSettin
   EXPECT_GT(std::abs(load), 1e5);
   std::array<double, 3> all{};
   for (std::size_t k = 0; k < 3; ++k) {
-    yields.platens.material.young_modulus = std::array{10.0, 100.0, 1000.0}[k] * steel;
+    yields.platens.material.young_modulus = std::array{10.0, 100.0, 1000.0}[k] * steel_modulus;
     PlatenTest test(specimen, yields);
     advance_to(test, steps);
     EXPECT_EQ(clamp_closure(test), clamp_closure(reference));
@@ -110,7 +110,7 @@ TEST(elastic_loadings, all_sides_press_alike_between_stiff_platens_as_between_ri
     EXPECT_NEAR(reference.axial_stress(), 5e6, 5e4) << sleeve;
     for (const ElasticMotion motion : both_motions) {
       const bool still = motion == ElasticMotion::quasi_static;
-      PlatenTest test(cylinder(), elastic(rigid, motion, still ? 100 * steel : steel));
+      PlatenTest test(cylinder(), elastic(rigid, motion, still ? 100 * steel_modulus : steel_modulus));
       advance_to_end(test, 40000);
       EXPECT_NEAR(test.axial_stress(), 5e6, 5e4) << sleeve << still;
       EXPECT_NEAR(test.closure_strain() / reference.closure_strain(), 1, still ? 0.01 : 0.03)
@@ -123,7 +123,7 @@ TEST(elastic_loadings, all_sides_press_alike_between_stiff_platens_as_between_ri
 // A bar on steel strips and one on strips with sheets of 2 GPa: these take a part of the deflection of the
 // clamps.
 TEST(elastic_loadings, sheets_on_strips_are_in_series_with_the_bar) {
-  PlatenTestSettings s = elastic(bent(), ElasticMotion::quasi_static, steel);
+  PlatenTestSettings s = elastic(bent(), ElasticMotion::quasi_static, steel_modulus);
   s.model.local_damping = 0.5;
   PlatenTest hard(bar(), s);
   s.platens.elastic->pad_thickness = 0.5e-3;
@@ -161,7 +161,7 @@ std::vector<Held> held_stresses() {
   std::vector<Held> all;
   for (const ElasticMotion motion : both_motions)
     for (const bool pad : {false, true}) {
-      PlatenTestSettings s = elastic(held_at(5e6), motion, steel);
+      PlatenTestSettings s = elastic(held_at(5e6), motion, steel_modulus);
       s.loading.ramp = 1e-4; // some twenty transits of a wave, and a hundred to stand
       s.loading.hold = 5e-4;
       if (pad) {
@@ -171,7 +171,7 @@ std::vector<Held> held_stresses() {
       }
       all.push_back({std::to_string(static_cast<int>(motion)) + (pad ? " on sheets" : ""), cylinder, s});
     }
-  for (const double machine : {0.03 * contact, contact}) {
+  for (const double machine : {0.03 * contact_stiffness, contact_stiffness}) {
     PlatenTestSettings s = one_sphere(machine);
     s.platens.machine.damping = 0.1;
     s.loading.servo = true;
@@ -211,4 +211,4 @@ TEST(elastic_loadings, a_servo_holds_its_stress_whatever_it_acts_through) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::elastic_loadings_test

@@ -11,7 +11,7 @@
 #include "tests/coupling/set_ups.h"
 #include "tests/same_state.h"
 
-namespace platen::coupling {
+namespace platen::coupling::elastic_platens_test {
 namespace {
 
 PlatenTestSettings between(ElasticMotion motion, double young) {
@@ -56,7 +56,7 @@ TEST(elastic_platens, a_layer_of_spheres_transmits_the_load) {
     layer.centre.push_back({(2 * (i % across) - across + 1) * r, (2 * (i / across) - across + 1) * r, r});
     layer.radius.push_back(r);
   }
-  PlatenTestSettings settings = between(ElasticMotion::quasi_static, steel);
+  PlatenTestSettings settings = between(ElasticMotion::quasi_static, steel_modulus);
   settings.model.bond.reset();
   settings.ends = Ends::as_packed;
   settings.platens.overhang = 1;
@@ -96,7 +96,7 @@ TEST(elastic_platens, a_layer_of_spheres_transmits_the_load) {
 }
 
 PlatenTestSettings on_pads(ElasticMotion motion) {
-  PlatenTestSettings settings = between(motion, steel);
+  PlatenTestSettings settings = between(motion, steel_modulus);
   settings.platens.overhang = 1;
   settings.platens.elastic->pad_thickness = 1e-3;
   settings.platens.elastic->pad = {1200, 1e9, 0.3};
@@ -154,7 +154,7 @@ TEST(elastic_platens, sheets_without_inertia_say_how_late_they_come) {
 }
 
 TEST(elastic_platens, a_mesh_that_cannot_be_held_is_refused_by_name) {
-  PlatenTestSettings settings = between(ElasticMotion::explicit_steps, steel);
+  PlatenTestSettings settings = between(ElasticMotion::explicit_steps, steel_modulus);
   const fem::Grid plate = fem::make_grid(fem::CylinderPlate{5e-3, 4e-3, 0, 4, 2});
   settings.platens.top.grid = fem::moved_grid(plate, [](const Vector3 &p) {
     return Vector3{p[0], p[1], p[2] * (1 + 20 * p[0])}; // its upper side slants
@@ -342,4 +342,4 @@ TEST(platen_layers, a_given_mesh_of_the_same_plate_presses_alike) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::elastic_platens_test

@@ -15,7 +15,7 @@
 #include "tests/coupling/seen.h"
 #include "tests/coupling/set_ups.h"
 
-namespace platen::coupling {
+namespace platen::coupling::experiment_test {
 namespace {
 
 using Log = std::vector<std::string>;
@@ -273,4 +273,4 @@ TEST(experiment, a_boundary_that_is_not_finite_stops_the_run_by_its_name) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::experiment_test

@@ -10,7 +10,7 @@
 
 #include "coupling/contact/surface_search.h"
 
-namespace platen::coupling {
+namespace platen::coupling::faces_test {
 namespace {
 
 // A square of side one, its corners moved by up to `by` in all directions, somewhere in space.
@@ -159,4 +159,4 @@ TEST(flat_faces, have_their_closest_points_inside_and_nowhere_else) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::faces_test

@@ -9,7 +9,7 @@
 #include "coupling/faults.h"
 #include "fem/grids.h"
 
-namespace platen::coupling {
+namespace platen::coupling::faults_test {
 namespace {
 
 using Settings = PlatenTestSettings;
@@ -315,4 +315,4 @@ TEST(Faults, stages_take_the_place_of_what_else_is_asked) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::faults_test

@@ -14,7 +14,7 @@
 #include "dem/laws/rotating_plane.h"
 #include "sphere_scene.h"
 
-namespace platen::dem {
+namespace platen::dem::friction_laws_test {
 namespace {
 
 constexpr double k = 2e5; // N/m
@@ -349,7 +349,7 @@ TEST(velocity_weakening_friction, a_high_slip_velocity_is_the_static_law_and_a_l
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::friction_laws_test
 
 namespace platen::coupling {
 namespace {
@@ -363,8 +363,8 @@ TEST(friction_law, a_layer_hands_the_slip_from_step_to_step) {
   for (int n = 0; n < 1000; ++n)
     scene.carry(1e-6);
   const ActiveContact found = scene.layer.contacts().at(0);
-  const double normal = stiffness * 0.01 * sphere_radius, s = found.slip;
-  EXPECT_NEAR(s, 0.4e-3 - norm(found.shear) / (0.8 * stiffness), 1e-12);
+  const double normal = plate_stiffness * 0.01 * sphere_radius, s = found.slip;
+  EXPECT_NEAR(s, 0.4e-3 - norm(found.shear) / (0.8 * plate_stiffness), 1e-12);
   EXPECT_NEAR(norm(found.shear), (0.2 + 0.3 * 1e-4 / (1e-4 + s)) * normal, 1e-9 * normal);
   EXPECT_NEAR(scene.layer.friction_work, normal * (0.2 * s + 0.3 * 1e-4 * std::log1p(s / 1e-4)),
               1e-3 * scene.layer.friction_work);

@@ -12,7 +12,7 @@
 #include "base/pi.h"
 #include "dem/packing/specimen.h"
 
-namespace platen::coupling {
+namespace platen::coupling::hertz_platen_test {
 namespace {
 
 constexpr double sphere_modulus = 70e9, sphere_poisson = 0.25; // Pa, 1
@@ -255,4 +255,4 @@ TEST(hertz_platen, of_a_soft_sheet_or_of_grains_without_contacts_is_refused) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::hertz_platen_test

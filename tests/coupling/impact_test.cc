@@ -15,7 +15,7 @@
 #include "dem/model.h"
 #include "tests/measured.h"
 
-namespace platen::coupling {
+namespace platen::coupling::impact_test {
 namespace {
 
 constexpr int row = 50; // of tests/verification/rows.json
@@ -243,7 +243,6 @@ void expect_sliding(const std::string &test, const OnPlane &sphere, const Motion
                          5e-3);
 }
 
-constexpr double degree = pi / 180;
 OnPlane oblique() {
   return {oxide, 0.0025, 0.98, 0.092};
 }
@@ -332,4 +331,4 @@ TEST(impact, eight_two_different_spheres_that_spin) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::impact_test

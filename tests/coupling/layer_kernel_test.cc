@@ -7,7 +7,7 @@
 #include "tests/instruction_sets.h"
 #include "tests/same_state.h"
 
-namespace platen::coupling {
+namespace platen::coupling::layer_kernel_test {
 namespace {
 
 // A sheet that waves, and carries along what lies on it.
@@ -97,7 +97,7 @@ std::vector<fem::FaceCompliance> compliances(std::size_t faces) {
       for (std::size_t k = 0; k < 4; ++k) // some beyond what springs make up for
         all[f][i][k] =
             ((i == k ? 0.1 : 0.02) + 0.03 * static_cast<double>(f % 40) / (1.0 + std::hypot(i, k))) /
-            stiffness;
+            plate_stiffness;
   return all;
 }
 
@@ -131,4 +131,4 @@ TEST(layer_kernel, contacts_in_packs_are_those_row_by_row) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::layer_kernel_test

@@ -7,7 +7,7 @@
 #include "coupling/program/widening_task.h"
 #include "tests/coupling/set_ups.h"
 
-namespace platen::coupling {
+namespace platen::coupling::loads_test {
 namespace {
 
 using namespace seen;
@@ -187,4 +187,4 @@ TEST_F(LoadsOfStages, platens_that_part_on_any_side_load_nothing_on) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::loads_test

@@ -7,7 +7,7 @@
 
 #include "tests/coupling/set_ups.h"
 
-namespace platen::coupling {
+namespace platen::coupling::machine_cell_test {
 namespace {
 
 constexpr double pressure = 4e6; // Pa
@@ -97,4 +97,4 @@ TEST(machine_cell, a_stage_asks_either_platen) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::machine_cell_test

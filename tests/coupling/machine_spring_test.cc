@@ -12,7 +12,7 @@
 #include "coupling/platen_test.h"
 #include "tests/coupling/set_ups.h"
 
-namespace platen::coupling {
+namespace platen::coupling::machine_spring_test {
 namespace {
 
 constexpr double k = 4e6, m = 0.1; // N/m, kg
@@ -178,7 +178,7 @@ TEST(machine_platens, are_in_series_with_the_machine) {
     const bool rigid = !kind.elastic && !kind.seat;
     for (const double machine : rigid ? std::vector{0.01, 0.1, 1., 100.} : std::vector{0.1, 100.}) {
       SCOPED_TRACE(std::string(kind.name) + " " + std::to_string(machine));
-      PlatenTestSettings settings = with(one_sphere(machine * contact), kind);
+      PlatenTestSettings settings = with(one_sphere(machine * contact_stiffness), kind);
       // With the square of the step falls what the light vertex under the sphere swings between kicks.
       if (kind.elastic && !kind.quasi_static) settings.time_step.fixed_step = 2e-8;
       PlatenTest test(sphere(), settings);
@@ -190,7 +190,8 @@ TEST(machine_platens, are_in_series_with_the_machine) {
       EXPECT_NEAR((test.machine_closure() - clamp_closure(test) + lag * rate) * spring / force, 1,
                   rigid ? 1e-3 : 2e-3);
       EXPECT_NEAR(test.bottom().load() / force, 1, 2e-3);
-      EXPECT_NEAR(test.closure_strain() * 2e-3, 2 * force / contact, (rigid ? 2e-3 : 0.04) * force / contact);
+      EXPECT_NEAR(test.closure_strain() * 2e-3, 2 * force / contact_stiffness,
+                  (rigid ? 2e-3 : 0.04) * force / contact_stiffness);
       const dem::EnergyLedger energy = test.energy();
       EXPECT_LT(residual(test), rigid ? 1e-4 : 1e-3);
       EXPECT_GT(energy.bodies, 0.5 * test.machine()->elastic_energy());
@@ -203,7 +204,8 @@ TEST(machine_platens, are_in_series_with_the_machine) {
   EXPECT_EQ(without.machine(), nullptr);
   EXPECT_TRUE(std::isnan(without.machine_closure()));
   advance_until(without, 2e-3);
-  EXPECT_NEAR(without.top().load() / without.bottom().closure() / contact, 1, 1e-3); // half of the closure
+  EXPECT_NEAR(without.top().load() / without.bottom().closure() / contact_stiffness, 1,
+              1e-3); // half of the closure
 }
 
 // A column that is pulled until a bond breaks: what the spring holds becomes motion of the mass, the more
@@ -253,10 +255,10 @@ TEST(machine_platens, a_soft_machine_jumps_with_what_it_holds_when_the_specimen_
 // A spring that is stiff against the light nodes of a clamp, or against a rigid platen.
 TEST(machine_platens, the_time_step_counts_the_spring) {
   for (const PlatenKind &kind : all_kinds) {
-    PlatenTestSettings settings = with(one_sphere(contact), kind);
+    PlatenTestSettings settings = with(one_sphere(contact_stiffness), kind);
     settings.platens.damping = 0;
     const double soft = PlatenTest(sphere(), settings).time_step();
-    settings.platens.machine.stiffness = 1e5 * contact;
+    settings.platens.machine.stiffness = 1e5 * contact_stiffness;
     PlatenTest test(sphere(), settings);
     EXPECT_LT(test.time_step(), 0.5 * soft) << kind.name;
     EXPECT_NE(test.time_step_reason().find("spring of the machine"), std::string::npos)
@@ -264,7 +266,8 @@ TEST(machine_platens, the_time_step_counts_the_spring) {
     if (!kind.elastic && !kind.seat) {
       const double mass = test.top().body().mass();
       EXPECT_EQ(test.machine()->settings().mass, mass);
-      EXPECT_NEAR(test.time_step(), 0.8 * 2 * std::sqrt(mass / (1e5 * contact)), 2e-3 * test.time_step());
+      EXPECT_NEAR(test.time_step(), 0.8 * 2 * std::sqrt(mass / (1e5 * contact_stiffness)),
+                  2e-3 * test.time_step());
     }
     advance_to(test, 20000);
     EXPECT_LT(residual(test), 1e-3) << kind.name;
@@ -281,4 +284,4 @@ TEST(machine_platens, a_mass_below_that_of_its_platen_is_refused) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::machine_spring_test

@@ -6,7 +6,7 @@
 #include "coupling/static_press.h"
 #include "tests/coupling/set_ups.h"
 
-namespace platen::coupling {
+namespace platen::coupling::net_section_test {
 namespace {
 
 constexpr double radius = 1e-3; // m
@@ -75,4 +75,4 @@ TEST(net_section, that_changes_with_height_is_refused) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::net_section_test

@@ -9,7 +9,7 @@
 #include "tests/coupling/set_ups.h"
 #include "tests/measured.h"
 
-namespace platen::coupling {
+namespace platen::coupling::not_finite_test {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -137,4 +137,4 @@ TEST(not_finite, is_refused_before_a_checkpoint) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::not_finite_test

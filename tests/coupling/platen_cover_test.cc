@@ -8,7 +8,7 @@
 #include "base/pi.h"
 #include "fem/grids.h"
 
-namespace platen::coupling {
+namespace platen::coupling::platen_cover_test {
 namespace {
 
 // Of a plate below a specimen, its upper face at z = 0 m or below.
@@ -76,4 +76,4 @@ TEST(PlatenCover, of_a_side_is_seen_along_its_axis) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::platen_cover_test

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace platen::coupling {
+namespace platen::coupling::platen_speed_test {
 namespace {
 
 // A column of masses on springs with a fixed closest point, pressed by a platen on top: the specimen as the
@@ -243,4 +243,4 @@ TEST(rate_control, of_multiplier_one_is_one_and_nonsense_is_refused) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::platen_speed_test

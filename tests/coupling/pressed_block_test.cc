@@ -17,7 +17,7 @@
 #include "tests/elastic_nodes.h"
 #include "tests/measured.h"
 
-namespace platen::coupling {
+namespace platen::coupling::pressed_block_test {
 namespace {
 
 constexpr double radius = 1e-3;                // m, of the sphere
@@ -303,4 +303,4 @@ TEST(pressed_layer, puts_the_pressure_into_the_inside_where_indentations_are_tak
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::pressed_block_test

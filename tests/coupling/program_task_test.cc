@@ -8,7 +8,7 @@
 
 #include "coupling/program/widening_task.h"
 
-namespace platen::coupling {
+namespace platen::coupling::program_task_test {
 namespace {
 
 using namespace seen;
@@ -263,4 +263,4 @@ TEST(program, leads_the_platens_by_the_mouth_of_a_notch) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::program_task_test

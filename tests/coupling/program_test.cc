@@ -9,7 +9,7 @@
 
 #include "tests/same_state.h"
 
-namespace platen::coupling {
+namespace platen::coupling::program_test {
 namespace {
 
 using namespace seen;
@@ -164,4 +164,4 @@ TEST(program, without_a_stage_is_refused) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::program_test

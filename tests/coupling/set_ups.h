@@ -19,7 +19,7 @@ namespace platen::coupling {
 
 using fem::ElasticMotion;
 
-inline constexpr double steel = 200e9; // Pa
+inline constexpr double steel_modulus = 200e9; // Pa
 inline constexpr std::array both_motions{ElasticMotion::explicit_steps, ElasticMotion::quasi_static};
 
 inline dem::Specimen filled(const dem::Shape &shape, unsigned seed) {
@@ -153,12 +153,12 @@ inline PlatenTestSettings crushing(double machine = not_given) {
 }
 
 // One sphere: two contacts, half of the stiffness of one, in series with the machine.
-inline constexpr double contact = 1e7; // N/m
+inline constexpr double contact_stiffness = 1e7; // N/m
 inline PlatenTestSettings one_sphere(double machine) {
   PlatenTestSettings s;
   s.model.rotation = false;
   s.model.local_damping = 0.5;
-  s.platens.stiffness = {dem::Stiffness::Kind::absolute, contact};
+  s.platens.stiffness = {dem::Stiffness::Kind::absolute, contact_stiffness};
   s.platens.thickness = 1e-3;
   s.platens.elements_across = 2;
   s.platens.machine.stiffness = machine;
@@ -168,7 +168,7 @@ inline PlatenTestSettings one_sphere(double machine) {
   return s;
 }
 
-inline PlatenTestSettings elastic(PlatenTestSettings s, ElasticMotion motion, double young = steel) {
+inline PlatenTestSettings elastic(PlatenTestSettings s, ElasticMotion motion, double young = steel_modulus) {
   s.platens.material.young_modulus = young;
   s.platens.elastic.emplace().motion = motion;
   return s;

@@ -11,7 +11,7 @@
 #include "fem/grids.h"
 #include "tests/coupling/set_ups.h"
 
-namespace platen::coupling {
+namespace platen::coupling::six_sides_test {
 namespace {
 
 constexpr double edge = 12e-3, asked = 5e6; // m, Pa
@@ -224,4 +224,4 @@ TEST(six_sides, no_axis_is_another_than_the_others) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::six_sides_test

@@ -12,7 +12,7 @@
 #include "tests/coupling/set_ups.h"
 #include "tests/same_state.h"
 
-namespace platen::coupling {
+namespace platen::coupling::sleeve_test {
 namespace {
 
 SleeveSettings butyl() {
@@ -222,4 +222,4 @@ TEST(sleeve, what_cannot_be_is_refused) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::sleeve_test

@@ -11,8 +11,8 @@
 namespace platen::coupling {
 
 constexpr fem::Material steel{7850, 210e9, 0.3};
-constexpr double sphere_radius = 1e-3; // m
-constexpr double stiffness = 1e6;      // N/m, of particle and contact (rigid plate)
+constexpr double sphere_radius = 1e-3;  // m
+constexpr double plate_stiffness = 1e6; // N/m, of particle and contact (rigid plate)
 
 // A plate whose upper face is z = 0, [-half, half] in x and y, `across` x `across` quads on it.
 inline fem::RigidBody plate(double half, int across) {
@@ -29,7 +29,7 @@ inline dem::Specimen spheres(const std::vector<Vector3> &centres, double radius 
 
 inline SurfaceContact frictional(double friction_static, double friction_dynamic) {
   SurfaceContact p;
-  p.particle_stiffness = stiffness;
+  p.particle_stiffness = plate_stiffness;
   p.friction_static = friction_static;
   p.friction_dynamic = friction_dynamic;
   p.skin = 0.3 * sphere_radius;

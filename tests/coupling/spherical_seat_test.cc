@@ -9,7 +9,7 @@
 #include "fem/rigid_body.h"
 #include "tests/coupling/set_ups.h"
 
-namespace platen::coupling {
+namespace platen::coupling::spherical_seat_test {
 namespace {
 
 PlatenTestSettings seated(bool elastic) {
@@ -17,7 +17,7 @@ PlatenTestSettings seated(bool elastic) {
   s.platens.damping = 0.1;
   s.platens.top = s.platens.bottom = PlatenSide{};
   s.platens.thickness = 4e-3;
-  s.platens.material.young_modulus = steel;
+  s.platens.material.young_modulus = steel_modulus;
   return s;
 }
 
@@ -91,7 +91,7 @@ TEST(spherical_seat, takes_no_moment_of_elastic_platens) {
 // as a rigid one, with the same inertia about it.
 TEST(spherical_seat, a_stiff_elastic_platen_turns_as_a_rigid_one) {
   PlatenTestSettings settings[2] = {seated(false), seated(true)};
-  settings[1].platens.material.young_modulus = 1000 * steel;
+  settings[1].platens.material.young_modulus = 1000 * steel_modulus;
   const double dt = 0.5 * PlatenTest(cylinder(), settings[0]).time_step();
   double stress[2];
   Vector3 turned[2];
@@ -168,4 +168,4 @@ TEST(spherical_seat, the_rim_of_a_sleeve_goes_with_the_platen) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::spherical_seat_test

@@ -9,7 +9,7 @@
 #include "coupling/program/widening_task.h"
 #include "tests/same_state.h"
 
-namespace platen::coupling {
+namespace platen::coupling::stage_end_test {
 namespace {
 
 using namespace seen;
@@ -187,4 +187,4 @@ TEST(stage_end, says_which_of_its_list_it_was) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::stage_end_test

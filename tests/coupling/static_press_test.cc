@@ -8,7 +8,7 @@
 #include "dem/measure/gauge.h"
 #include "tests/coupling/set_ups.h"
 
-namespace platen::coupling {
+namespace platen::coupling::static_press_test {
 namespace {
 
 PlatenTestSettings pressed_by(double friction, const dem::BondParameters &bond) {
@@ -200,4 +200,4 @@ TEST(static_press, asks_for_bonds_and_a_strain) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::static_press_test

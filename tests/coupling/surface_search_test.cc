@@ -11,7 +11,7 @@
 #include "sphere_scene.h"
 #include "tests/instruction_sets.h"
 
-namespace platen::coupling {
+namespace platen::coupling::surface_search_test {
 namespace {
 
 fem::RigidBody box(int elements) {
@@ -287,4 +287,4 @@ TEST(surface_search, particles_far_from_the_surface_are_not_listed) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::surface_search_test

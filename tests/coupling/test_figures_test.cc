@@ -9,7 +9,7 @@
 #include "tests/coupling/set_ups.h"
 #include "tests/same_state.h"
 
-namespace platen::coupling {
+namespace platen::coupling::test_figures_test {
 namespace {
 
 PlatenTestSettings with_weight() {
@@ -86,8 +86,8 @@ TEST(test_figures, platens_that_yield_leave_the_step_that_their_springs_allow) {
   PlatenTestSettings settings = smooth();
   settings.platens.stiffness.value = 300;
   const double rigid = PlatenTest(cylinder(), settings).time_step(),
-               yields =
-                   PlatenTest(cylinder(), elastic(settings, ElasticMotion::quasi_static, steel)).time_step();
+               yields = PlatenTest(cylinder(), elastic(settings, ElasticMotion::quasi_static, steel_modulus))
+                            .time_step();
   EXPECT_GT(yields / rigid, 1 / std::sqrt(2 * 1.25)); // bonds count on both sides
   EXPECT_LT(yields / rigid, 1 / std::sqrt(2.));
 }
@@ -170,4 +170,4 @@ TEST(platen_test, a_run_resumed_where_the_step_is_chosen_goes_on_the_same) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::test_figures_test

@@ -9,7 +9,7 @@
 #include "dem/model.h"
 #include "sphere_scene.h"
 
-namespace platen::coupling {
+namespace platen::coupling::three_spheres_test {
 namespace {
 
 constexpr double modulus = 40e9; // Pa, of the bonds
@@ -87,4 +87,4 @@ TEST(three_spheres, spread_as_the_linear_solution_says) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::three_spheres_test

@@ -10,7 +10,7 @@
 #include "tests/measured.h"
 #include "tests/surface_sums.h"
 
-namespace platen::coupling {
+namespace platen::coupling::transfer_test {
 namespace {
 
 struct Tie {
@@ -146,4 +146,4 @@ TEST(transfer, a_moment_on_a_face_is_a_moment_without_a_force) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::transfer_test

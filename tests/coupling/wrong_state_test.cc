@@ -12,7 +12,7 @@
 #include "tests/coupling/set_ups.h"
 #include "tests/same_state.h"
 
-namespace platen::coupling {
+namespace platen::coupling::wrong_state_test {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -105,8 +105,9 @@ const std::vector<Kind> &kinds() {
       {"a sleeve", [] { return hydrostatic(true); }, 303},
       {"a wall", walled, 300},
       {"a stress that is held", [] { return held_at(5e6); }, 300},
-      {"elastic platens", [] { return elastic(rolling(), ElasticMotion::explicit_steps, steel); }, 300},
-      {"static platens", [] { return elastic(rolling(), ElasticMotion::quasi_static, steel); }, 310},
+      {"elastic platens", [] { return elastic(rolling(), ElasticMotion::explicit_steps, steel_modulus); },
+       300},
+      {"static platens", [] { return elastic(rolling(), ElasticMotion::quasi_static, steel_modulus); }, 310},
   };
   return all;
 }
@@ -294,4 +295,4 @@ TEST(wrong_state, rows_that_do_not_go_together_are_refused) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::wrong_state_test

@@ -7,7 +7,7 @@
 
 #include "dem/measure/acoustic_emission.h"
 
-namespace platen::dem {
+namespace platen::dem::acoustic_emission_test {
 namespace {
 
 // Even in (0, 1), the same on every machine.
@@ -248,4 +248,4 @@ TEST(acoustic_emission, the_window_is_what_a_wave_crosses) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::acoustic_emission_test

@@ -10,7 +10,7 @@
 #include "dem/packing/advancing_front.h"
 #include "tests/dem/examples.h"
 
-namespace platen::dem {
+namespace platen::dem::bending_test {
 namespace {
 
 using namespace examples;
@@ -281,4 +281,4 @@ TEST(disc_measures, a_deflection_looks_at_its_supports_and_between_them) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::bending_test

@@ -6,7 +6,7 @@
 #include "tests/dem/examples.h"
 #include "tests/dem/static_solve.h"
 
-namespace platen::dem {
+namespace platen::dem::bond_chain_test {
 namespace {
 
 using namespace examples;
@@ -98,4 +98,4 @@ TEST(bond_chain, dynamic_relaxation_finds_the_static_deflection) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::bond_chain_test

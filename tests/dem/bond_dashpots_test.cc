@@ -6,7 +6,7 @@
 #include "base/random.h"
 #include "tests/dem/examples.h"
 
-namespace platen::dem {
+namespace platen::dem::bond_dashpots_test {
 namespace {
 
 using namespace examples;
@@ -214,4 +214,4 @@ TEST(bond_history, bonds_without_moments_store_no_bending) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::bond_dashpots_test

@@ -10,7 +10,7 @@
 #include "tests/dem/examples.h"
 #include "tests/measured.h"
 
-namespace platen::dem {
+namespace platen::dem::bond_failure_test {
 namespace {
 
 using namespace examples;
@@ -394,4 +394,4 @@ TEST(bond_failure, the_energy_balance_of_a_cracking_body_closes) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::bond_failure_test

@@ -9,7 +9,7 @@
 #include "tests/dem/examples.h"
 #include "tests/measured.h"
 
-namespace platen::dem {
+namespace platen::dem::bond_invariance_test {
 namespace {
 
 using namespace examples;
@@ -196,4 +196,4 @@ TEST(bond_invariance, units_and_the_place_of_the_origin_do_not_matter) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::bond_invariance_test

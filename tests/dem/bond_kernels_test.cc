@@ -8,7 +8,7 @@
 #include "base/random.h"
 #include "tests/dem/examples.h"
 
-namespace platen::dem {
+namespace platen::dem::bond_kernels_test {
 namespace {
 
 using namespace examples;
@@ -153,4 +153,4 @@ INSTANTIATE_TEST_SUITE_P(beams, BondKernels,
                          name_of);
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::bond_kernels_test

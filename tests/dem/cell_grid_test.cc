@@ -14,7 +14,7 @@
 #include "dem/kernels/near_kernel.h"
 #include "dem/particles.h"
 
-namespace platen::dem {
+namespace platen::dem::cell_grid_test {
 namespace {
 
 // Refused before any is looked at.
@@ -237,4 +237,4 @@ TEST(NearKernel, leaves_out_what_just_meets) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::cell_grid_test

@@ -13,7 +13,7 @@
 #include "tests/dem/examples.h"
 #include "tests/dem/static_solve.h"
 
-namespace platen::dem {
+namespace platen::dem::cohesive_beam_test {
 namespace {
 
 using namespace examples;
@@ -337,4 +337,4 @@ TEST(cohesive_beam, a_free_packing_of_beams_keeps_its_energy) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::cohesive_beam_test

@@ -16,7 +16,7 @@
 #include "tests/dem/examples.h"
 #include "tests/same_state.h"
 
-namespace platen::dem {
+namespace platen::dem::confinement_test {
 namespace {
 
 using examples::break_rows_where;
@@ -364,4 +364,4 @@ TEST(confinement, threads_change_no_bit) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::confinement_test

@@ -10,7 +10,7 @@
 #include "base/table.h"
 #include "dem/instruction_set.h"
 
-namespace platen::dem {
+namespace platen::dem::contact_kernel_test {
 namespace {
 
 struct Rows {
@@ -64,4 +64,4 @@ TEST(ContactKernel, finds_rows_that_are_closer_than_at_rest_or_were_touching) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::contact_kernel_test

@@ -12,7 +12,7 @@
 #include "tests/dem/examples.h"
 #include "tests/same_state.h"
 
-namespace platen::dem {
+namespace platen::dem::contact_search_test {
 namespace {
 
 using namespace examples;
@@ -123,4 +123,4 @@ TEST(contact_search, an_intact_packing_lists_almost_no_pairs) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::contact_search_test

@@ -6,7 +6,7 @@
 
 #include "tests/dem/examples.h"
 
-namespace platen::dem {
+namespace platen::dem::contact_springs_test {
 namespace {
 
 using namespace examples;
@@ -115,4 +115,4 @@ TEST(contact_springs, a_new_pair_leaves_those_that_are_there_alone) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::contact_springs_test

@@ -11,7 +11,7 @@
 #include "dem/laws/hertz_contact.h"
 #include "tests/dem/examples.h"
 
-namespace platen::dem {
+namespace platen::dem::contact_test {
 namespace {
 
 using namespace examples;
@@ -323,4 +323,4 @@ TEST(contact, without_a_tangential_stiffness_nothing_is_lost_to_friction) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::contact_test

@@ -12,12 +12,11 @@
 #include "dem/measure/cone.h"
 #include "tests/dem/broken_specimens.h"
 
-namespace platen::dem {
+namespace platen::dem::dead_zone_test {
 namespace {
 
 using namespace examples;
 
-constexpr double degree = pi / 180;
 constexpr double h = Cylinder::length, rc = Cylinder::width; // in `radius`
 
 const Specimen &specimen() {
@@ -270,4 +269,4 @@ TEST(dead_zone, nothing_is_measured_without_a_motion_or_of_a_disc) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::dead_zone_test

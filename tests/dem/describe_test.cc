@@ -7,7 +7,7 @@
 #include "dem/model.h"
 #include "tests/dem/examples.h"
 
-namespace platen::dem {
+namespace platen::dem::describe_test {
 namespace {
 
 using namespace examples;
@@ -103,4 +103,4 @@ TEST(describe, every_choice_of_a_contact_has_its_own_law) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::describe_test

@@ -7,7 +7,7 @@
 #include "base/random.h"
 #include "tests/dem/examples.h"
 
-namespace platen::dem {
+namespace platen::dem::dissipative_scheme_test {
 namespace {
 
 using namespace examples;
@@ -307,4 +307,4 @@ TEST(dissipative_scheme, closes_the_balance_of_a_block_that_cracks) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::dissipative_scheme_test

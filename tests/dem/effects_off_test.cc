@@ -21,7 +21,7 @@
 #include "tests/dem/examples.h"
 #include "tests/measured.h"
 
-namespace platen::dem {
+namespace platen::dem::effects_off_test {
 namespace {
 
 using namespace examples;
@@ -350,4 +350,4 @@ TEST(effects_off, a_crack_log_that_is_off_holds_nothing) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::effects_off_test

@@ -10,7 +10,7 @@
 #include "dem/laws/parallel_bond.h"
 #include "tests/dem/examples.h"
 
-namespace platen::dem {
+namespace platen::dem::elastic_law_test {
 namespace {
 
 using namespace examples;
@@ -331,7 +331,7 @@ TEST(parallel_bond, compression_alone_never_breaks) {
 }
 
 TEST(parallel_bond, friction_angle_raises_the_shear_strength_by_the_compression) {
-  const double tangent = std::tan(42 * pi / 180), pressure = 20e6; // Pa
+  const double tangent = std::tan(42 * degree), pressure = 20e6; // Pa
   BondMotion<double> m = at_rest();
   const double length = bond_length * (1 - pressure / modulus);
   const double strength = shear_strength + tangent * pressure;
@@ -375,4 +375,4 @@ TEST(parallel_bond, without_moments_turning_about_the_contact_point_costs_nothin
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::elastic_law_test

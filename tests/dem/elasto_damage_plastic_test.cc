@@ -7,7 +7,7 @@
 #include "base/pi.h"
 #include "tests/dem/one_bond.h"
 
-namespace platen::dem {
+namespace platen::dem::elasto_damage_plastic_test {
 namespace {
 
 using namespace examples;
@@ -472,4 +472,4 @@ TEST(CohesiveMoments, are_in_the_largest_step_and_off_are_in_nothing) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::elasto_damage_plastic_test

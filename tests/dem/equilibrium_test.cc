@@ -11,7 +11,7 @@
 #include "tests/dem/examples.h"
 #include "tests/dem/sparse_equilibrium.h"
 
-namespace platen::dem {
+namespace platen::dem::equilibrium_test {
 namespace {
 
 using namespace examples;
@@ -382,4 +382,4 @@ TEST(equilibrium, a_piece_that_nothing_holds_stays_where_it_is) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::equilibrium_test

@@ -8,7 +8,7 @@
 #include "tests/dem/examples.h"
 #include "tests/measured.h"
 
-namespace platen::dem {
+namespace platen::dem::extremes_test {
 namespace {
 
 using namespace examples;
@@ -75,4 +75,4 @@ TEST(extremes, deep_overlaps_at_the_start_hold_no_energy) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::extremes_test

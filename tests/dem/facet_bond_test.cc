@@ -8,7 +8,7 @@
 #include "dem/laws/elementary.h"
 #include "tests/dem/one_bond.h"
 
-namespace platen::dem {
+namespace platen::dem::facet_bond_test {
 namespace {
 
 constexpr double modulus = 28e9, length = 3e-3, radius = 1.2e-3; // Pa, m, m
@@ -85,7 +85,7 @@ TEST(FacetBond, tension_takes_the_fracture_energy) {
 TEST(FacetBond, fails_at_the_published_strength_of_mixed_modes) {
   const double alpha = 0.25, r = 11.0 / 4;
   for (const double degrees : {89.0, 60.0, 45.0, 20.0, 5.0, 1.0}) {
-    const double w = degrees * pi / 180, s = std::sin(w), c = std::cos(w);
+    const double w = degrees * degree, s = std::sin(w), c = std::cos(w);
     const double published =
         4e6 * (-s + std::sqrt(s * s + 4 * alpha * c * c / (r * r))) / (2 * alpha * c * c / (r * r));
     const double tension = published * s, shear = std::sqrt(alpha) * published * c;
@@ -444,4 +444,4 @@ TEST(Elementary, powers_of_shares) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::facet_bond_test

@@ -13,12 +13,12 @@
 #include "tests/dem/examples.h"
 #include "tests/same_state.h"
 
-namespace platen::dem {
+namespace platen::dem::failure_pattern_test {
 namespace {
 
 using namespace examples;
 
-constexpr double h = Cylinder::length, degree = pi / 180; // lengths in `radius`
+constexpr double h = Cylinder::length; // lengths in `radius`
 
 // Which side of a plane through the middle, at an angle (degrees) to the axis; `unit` of places, m.
 auto sides(double angle, double unit = radius) {
@@ -341,4 +341,4 @@ TEST(crack_rose, counts_area_by_the_angle_to_the_axis_in_either_sense) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::failure_pattern_test

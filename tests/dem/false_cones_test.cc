@@ -11,12 +11,11 @@
 #include "tests/dem/broken_specimens.h"
 #include "tests/measured.h"
 
-namespace platen::dem {
+namespace platen::dem::false_cones_test {
 namespace {
 
 using namespace examples;
 
-constexpr double degree = pi / 180;
 constexpr double h = Cylinder::length, rc = Cylinder::width; // in `radius`
 
 using V = DeadZoneVerdict;
@@ -177,4 +176,4 @@ TEST(false_cones, not_one_of_them_is_told_as_a_cone) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::false_cones_test

@@ -9,7 +9,7 @@
 #include "tests/dem/examples.h"
 #include "tests/measured.h"
 
-namespace platen::dem {
+namespace platen::dem::integrator_test {
 namespace {
 
 using namespace examples;
@@ -257,4 +257,4 @@ TEST(integrator, bond_dashpots_damp_by_their_fraction) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::integrator_test

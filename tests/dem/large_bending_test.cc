@@ -5,7 +5,7 @@
 
 #include "tests/dem/examples.h"
 
-namespace platen::dem {
+namespace platen::dem::large_bending_test {
 namespace {
 
 using namespace examples;
@@ -96,4 +96,4 @@ TEST(large_bending, a_cantilever_bends_as_the_elastica) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::large_bending_test

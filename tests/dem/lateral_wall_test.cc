@@ -7,7 +7,7 @@
 
 #include "tests/dem/examples.h"
 
-namespace platen::dem {
+namespace platen::dem::lateral_wall_test {
 namespace {
 
 using namespace examples;
@@ -78,4 +78,4 @@ TEST(lateral_wall, seats_what_lies_within_its_layer) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::lateral_wall_test

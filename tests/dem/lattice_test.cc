@@ -13,7 +13,7 @@
 #include "dem/model.h"
 #include "tests/dem/examples.h"
 
-namespace platen::dem {
+namespace platen::dem::lattice_test {
 namespace {
 
 using namespace examples;
@@ -150,4 +150,4 @@ TEST_F(FaceCentredLattice, under_even_pressure_has_its_bulk_modulus) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::lattice_test

@@ -9,7 +9,7 @@
 #include "dem/measure/stress.h"
 #include "tests/dem/broken_specimens.h"
 
-namespace platen::dem {
+namespace platen::dem::measure_bounds_test {
 namespace {
 
 using namespace examples;
@@ -63,7 +63,6 @@ TEST(measure_bounds, a_bond_stresses_each_sphere_by_its_own_radius) {
 TEST(measure_bounds, every_rule_refuses_a_dead_zone_that_does_not_keep_it) {
   const Cylinder c;
   const Specimen before = specimen_before(c.particles, c.shape);
-  const double degree = pi / 180;
   const Cone cone{{1, 0, 34}, {-std::sin(5 * degree), 0, -std::cos(5 * degree)}, 30 * degree};
   const MotionAfterPeak motion = motion_of(
       before, [&](const Vector3 &x) { return cone.distance(x) < 0 ? of_bottom : outwards(x) + half_way; });
@@ -141,4 +140,4 @@ TEST(measure_bounds, a_region_holds_what_is_within_its_walls) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::measure_bounds_test

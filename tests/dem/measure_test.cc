@@ -15,7 +15,7 @@
 #include "dem/packing/advancing_front.h"
 #include "tests/dem/examples.h"
 
-namespace platen::dem {
+namespace platen::dem::measure_test {
 namespace {
 
 using namespace examples;
@@ -415,4 +415,4 @@ TEST(measure, bonds_are_counted_at_both_ends) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::measure_test

@@ -20,7 +20,7 @@
 #include "dem/packing/specimen.h"
 #include "tests/dem/examples.h"
 
-namespace platen::dem {
+namespace platen::dem::motion_kernel_test {
 namespace {
 
 using namespace examples;
@@ -235,4 +235,4 @@ TEST(ContactKernel, gives_the_same_bits_with_every_instruction_set) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::motion_kernel_test

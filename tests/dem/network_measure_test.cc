@@ -11,7 +11,7 @@
 #include "dem/measure/stress.h"
 #include "tests/dem/examples.h"
 
-namespace platen::dem {
+namespace platen::dem::network_measure_test {
 namespace {
 
 using namespace examples;
@@ -223,4 +223,4 @@ TEST(spectrum, a_dispersed_pulse_passes_when_long_waves_do) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::network_measure_test

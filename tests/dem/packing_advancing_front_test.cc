@@ -8,10 +8,8 @@
 #include "dem/packing/advancing_front.h"
 #include "dem/packing/quality.h"
 
+namespace platen::dem::packing_advancing_front_test {
 namespace {
-
-using namespace platen;
-using namespace platen::dem;
 
 constexpr double mm = 1e-3;
 
@@ -102,3 +100,4 @@ TEST(AdvancingFront, refuses_what_cannot_be_packed) {
 }
 
 } // namespace
+} // namespace platen::dem::packing_advancing_front_test

@@ -9,10 +9,8 @@
 #include "base/pi.h"
 #include "dem/packing/specimen.h"
 
+namespace platen::dem::packing_ends_test {
 namespace {
-
-using namespace platen;
-using namespace platen::dem;
 
 // Unit spheres with gaps of 0, .4, .6 and 1.5 to z = 0, and of 0, .2 to z = 20; mean radius 1.
 Specimen column() {
@@ -117,3 +115,4 @@ TEST(SpecimenMeasures, agree_with_plain_geometry) {
 }
 
 } // namespace
+} // namespace platen::dem::packing_ends_test

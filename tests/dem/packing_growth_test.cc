@@ -10,10 +10,8 @@
 #include "dem/packing/growth.h"
 #include "dem/packing/quality.h"
 
+namespace platen::dem::packing_growth_test {
 namespace {
-
-using namespace platen;
-using namespace platen::dem;
 
 // About 900 spheres in a cylinder of ten mean radii; made once.
 struct Jammed {
@@ -148,3 +146,4 @@ TEST(GrowthPacking, refuses_what_cannot_be_packed) {
 }
 
 } // namespace
+} // namespace platen::dem::packing_growth_test

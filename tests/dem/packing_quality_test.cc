@@ -13,10 +13,8 @@
 #include "dem/packing/direction_cells.h"
 #include "dem/packing/quality.h"
 
+namespace platen::dem::packing_quality_test {
 namespace {
-
-using namespace platen;
-using namespace platen::dem;
 
 // n^3 touching spheres of radius 1/2 in a cube of edge n.
 Specimen simple_cubic(int n) {
@@ -183,3 +181,4 @@ TEST(Isotropy, is_one_for_random_axes_and_blind_to_their_sign) {
 }
 
 } // namespace
+} // namespace platen::dem::packing_quality_test

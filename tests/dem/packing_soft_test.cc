@@ -19,10 +19,8 @@
 #include "dem/packing/soft_spheres.h"
 #include "dem/packing/tiled.h"
 
+namespace platen::dem::packing_soft_test {
 namespace {
-
-using namespace platen;
-using namespace platen::dem;
 
 bool same_bytes(const Specimen &a, const Specimen &b) {
   return a.size() == b.size() && a.size() > 0 &&
@@ -316,3 +314,4 @@ TEST(Packings, repeat_bit_for_bit_from_their_seed_on_any_number_of_threads) {
 }
 
 } // namespace
+} // namespace platen::dem::packing_soft_test

@@ -14,10 +14,8 @@
 #include "dem/packing/quality.h"
 #include "dem/packing/tiled.h"
 
+namespace platen::dem::packing_tiled_test {
 namespace {
-
-using namespace platen;
-using namespace platen::dem;
 
 struct Contact {
   Vector3 axis;
@@ -218,3 +216,4 @@ TEST(TiledPacking, refuses_shapes_that_are_hardly_a_tile) {
 }
 
 } // namespace
+} // namespace platen::dem::packing_tiled_test

@@ -13,7 +13,7 @@
 #include "dem/pair_lists.h"
 #include "tests/dem/examples.h"
 
-namespace platen::dem {
+namespace platen::dem::pair_blocks_test {
 namespace {
 
 using Pair = std::pair<int, int>;
@@ -278,4 +278,4 @@ TEST(pair_lists, a_pair_that_is_added_moves_as_much_in_a_large_specimen_as_in_a_
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::pair_blocks_test

@@ -12,7 +12,7 @@
 #include "tests/dem/examples.h"
 #include "tests/dem/one_yielding_bond.h"
 
-namespace platen::dem {
+namespace platen::dem::remembering_law_test {
 namespace {
 
 using namespace examples;
@@ -292,4 +292,4 @@ TEST(cohesive_plane, a_right_angle_turns_a_vector_of_it_exactly) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::remembering_law_test

@@ -12,7 +12,7 @@
 #include "tests/dem/broken_specimens.h"
 #include "tests/dem/one_bond.h"
 
-namespace platen::dem {
+namespace platen::dem::remembering_model_test {
 namespace {
 
 using namespace examples;
@@ -409,4 +409,4 @@ TEST(CohesiveModel, a_spinning_block_stores_no_energy) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::remembering_model_test

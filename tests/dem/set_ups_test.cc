@@ -10,7 +10,7 @@
 #include "tests/measured.h"
 #include "tests/same_state.h"
 
-namespace platen::dem {
+namespace platen::dem::set_ups_test {
 namespace {
 
 using namespace examples;
@@ -98,4 +98,4 @@ TEST(threads, loops_leave_no_memory_behind) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::set_ups_test

@@ -9,7 +9,7 @@
 #include "dem/packing/advancing_front.h"
 #include "dem/packing/growth.h"
 
-namespace platen::dem {
+namespace platen::dem::solid_section_test {
 namespace {
 
 constexpr double radius = 1e-3; // m
@@ -161,4 +161,4 @@ TEST(solid_section, of_nothing_is_not_a_number) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::solid_section_test

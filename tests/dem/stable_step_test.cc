@@ -10,7 +10,7 @@
 #include "tests/dem/examples.h"
 #include "tests/measured.h"
 
-namespace platen::dem {
+namespace platen::dem::stable_step_test {
 namespace {
 
 using namespace examples;
@@ -199,4 +199,4 @@ TEST(stable_step, is_sought_as_far_as_the_question_needs) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::stable_step_test

@@ -17,7 +17,7 @@
 #include "dem/measure/bond_network.h"
 #include "tests/dem/examples.h"
 
-namespace platen::dem {
+namespace platen::dem::strength_scatter_test {
 namespace {
 
 using namespace examples;
@@ -409,4 +409,4 @@ TEST(phases, have_contacts_as_stiff_as_their_bonds) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::strength_scatter_test

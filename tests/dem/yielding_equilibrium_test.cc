@@ -13,7 +13,7 @@
 #include "tests/dem/one_yielding_bond.h"
 #include "tests/measured.h"
 
-namespace platen::dem {
+namespace platen::dem::yielding_equilibrium_test {
 namespace {
 
 using one_yielding_bond::Bond;
@@ -220,4 +220,4 @@ TEST(YieldingEquilibrium, what_would_break_or_is_no_yielding_bond_is_refused_and
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::yielding_equilibrium_test

@@ -6,7 +6,7 @@
 
 #include "tests/dem/one_yielding_bond.h"
 
-namespace platen::dem {
+namespace platen::dem::yielding_parallel_bond_test {
 namespace {
 
 using namespace one_yielding_bond;
@@ -324,4 +324,4 @@ TEST(YieldingEnergy, of_a_contact_that_takes_over_and_goes_on_yielding_is_that_b
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::yielding_parallel_bond_test

@@ -8,7 +8,7 @@
 #include "tests/elastic_nodes.h"
 #include "tests/fem/elastic_plate.h"
 
-namespace platen::fem {
+namespace platen::fem::elastic_frame_test {
 namespace {
 
 // However far the machine carries and turns a body: what is left is round-off of places, 1e-17 m. One with
@@ -122,4 +122,4 @@ TEST(elastic_solid, a_body_on_its_seat_keeps_its_angular_momentum) {
 }
 
 } // namespace
-} // namespace platen::fem
+} // namespace platen::fem::elastic_frame_test

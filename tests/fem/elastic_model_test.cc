@@ -11,7 +11,7 @@
 #include "tests/fem/quadrature.h"
 #include "tests/surface_sums.h"
 
-namespace platen::fem {
+namespace platen::fem::elastic_model_test {
 namespace {
 
 constexpr Material steel{7850, 210e9, 0.3};
@@ -307,4 +307,4 @@ TEST(elastic_model, what_no_solid_can_be_is_refused) {
 }
 
 } // namespace
-} // namespace platen::fem
+} // namespace platen::fem::elastic_model_test

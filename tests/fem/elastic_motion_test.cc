@@ -8,7 +8,7 @@
 #include "tests/elastic_nodes.h"
 #include "tests/fem/elastic_plate.h"
 
-namespace platen::fem {
+namespace platen::fem::elastic_motion_test {
 namespace {
 
 // s, between the zeros of an oscillation, on the mean over so many halves of it; each step is one of the
@@ -191,4 +191,4 @@ TEST(elastic_solid, a_free_body_keeps_its_momentum) {
 }
 
 } // namespace
-} // namespace platen::fem
+} // namespace platen::fem::elastic_motion_test

@@ -7,7 +7,7 @@
 #include "tests/elastic_nodes.h"
 #include "tests/fem/elastic_plate.h"
 
-namespace platen::fem {
+namespace platen::fem::elastic_solid_test {
 namespace {
 
 // Momentum gained = loads less what the clamp takes, step by step; and what it takes at rest is the loads.
@@ -176,4 +176,4 @@ TEST(elastic_solid, grips_that_cannot_hold_are_refused) {
 }
 
 } // namespace
-} // namespace platen::fem
+} // namespace platen::fem::elastic_solid_test

@@ -11,7 +11,7 @@
 #include "tests/fem/rubber_sleeve.h"
 #include "tests/same_state.h"
 
-namespace platen::fem {
+namespace platen::fem::every_body_test {
 namespace {
 
 // Loads that change, and take energy.
@@ -142,4 +142,4 @@ TYPED_TEST(EveryBody, has_a_picture_that_names_its_fields_and_repeats) {
 }
 
 } // namespace
-} // namespace platen::fem
+} // namespace platen::fem::every_body_test

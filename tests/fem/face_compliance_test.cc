@@ -8,7 +8,7 @@
 
 #include "fem/elastic_solid.h"
 
-namespace platen::fem {
+namespace platen::fem::face_compliance_test {
 namespace {
 
 constexpr Material rock{2600, 50e9, 0.3};
@@ -104,4 +104,4 @@ TEST(face_compliance, scales_and_turns_with_the_body) {
 }
 
 } // namespace
-} // namespace platen::fem
+} // namespace platen::fem::face_compliance_test

@@ -11,7 +11,7 @@
 
 #include "fem/elastic_model.h"
 
-namespace platen::fem {
+namespace platen::fem::gmsh_test {
 namespace {
 
 constexpr Material steel{7850, 210e9, 0.3};
@@ -189,4 +189,4 @@ TEST(gmsh, mangled_meshes_are_read_or_refused) {
 }
 
 } // namespace
-} // namespace platen::fem
+} // namespace platen::fem::gmsh_test

@@ -13,7 +13,7 @@
 #include "fem/elastic_model.h"
 #include "tests/surface_sums.h"
 
-namespace platen::fem {
+namespace platen::fem::grids_test {
 namespace {
 
 std::vector<std::pair<const char *, Grid>> plates() {
@@ -239,4 +239,4 @@ TEST(surface_mesh, a_face_without_area_is_named) {
 }
 
 } // namespace
-} // namespace platen::fem
+} // namespace platen::fem::grids_test

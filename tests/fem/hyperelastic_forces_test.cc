@@ -7,7 +7,7 @@
 #include "tests/fem/rubber_sleeve.h"
 #include "tests/fem/tangent.h"
 
-namespace platen::fem {
+namespace platen::fem::hyperelastic_forces_test {
 namespace {
 
 TEST(hyperelastic_solid, mass_is_density_times_volume) {
@@ -177,4 +177,4 @@ TEST(hyperelastic_solid, senseless_requests_are_refused) {
 }
 
 } // namespace
-} // namespace platen::fem
+} // namespace platen::fem::hyperelastic_forces_test

@@ -13,7 +13,7 @@
 #include "tests/measured.h"
 #include "tests/same_state.h"
 
-namespace platen::fem {
+namespace platen::fem::hyperelastic_statics_test {
 namespace {
 
 std::vector<int> nodes_where(const HyperelasticSolid &solid,
@@ -248,4 +248,4 @@ TEST(hyperelastic_statics, contact_loads_come_and_go) {
 }
 
 } // namespace
-} // namespace platen::fem
+} // namespace platen::fem::hyperelastic_statics_test

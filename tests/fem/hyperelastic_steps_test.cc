@@ -11,7 +11,7 @@
 #include "tests/fem/tangent.h"
 #include "tests/same_state.h"
 
-namespace platen::fem {
+namespace platen::fem::hyperelastic_steps_test {
 namespace {
 
 // s, 2 / omega of the fastest oscillation of all.
@@ -137,4 +137,4 @@ TEST(hyperelastic_solid, an_inverted_element_is_found_before_it_is_used) {
 }
 
 } // namespace
-} // namespace platen::fem
+} // namespace platen::fem::hyperelastic_steps_test

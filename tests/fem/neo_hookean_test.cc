@@ -13,7 +13,7 @@
 #include "fem/solid_mesh.h"
 #include "tests/fem/neo_hookean_point.h"
 
-namespace platen::fem {
+namespace platen::fem::neo_hookean_test {
 namespace {
 
 using Matrix24 = Eigen::Matrix<double, 24, 24, Eigen::RowMajor>;
@@ -179,4 +179,4 @@ TEST(follower_pressure, corner_areas_are_those_of_the_shape_functions) {
 }
 
 } // namespace
-} // namespace platen::fem
+} // namespace platen::fem::neo_hookean_test

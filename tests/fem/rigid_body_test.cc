@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace platen::fem {
+namespace platen::fem::rigid_body_test {
 namespace {
 
 constexpr Material steel{7850, 210e9, 0.3};
@@ -175,4 +175,4 @@ TEST(rigid_body, an_even_load_is_an_even_pressure_up_to_the_rim) {
 }
 
 } // namespace
-} // namespace platen::fem
+} // namespace platen::fem::rigid_body_test

@@ -8,7 +8,7 @@
 #include "fem/rigid_body.h"
 #include "fem/rotor.h"
 
-namespace platen::fem {
+namespace platen::fem::rigid_seat_test {
 namespace {
 
 constexpr Material steel{7850, 210e9, 0.3};
@@ -219,4 +219,4 @@ TEST(rigid_seat, tells_how_far_its_farthest_vertex_went) {
 }
 
 } // namespace
-} // namespace platen::fem
+} // namespace platen::fem::rigid_seat_test

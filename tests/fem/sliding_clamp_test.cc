@@ -9,7 +9,7 @@
 #include "tests/elastic_nodes.h"
 #include "tests/fem/elastic_plate.h"
 
-namespace platen::fem {
+namespace platen::fem::sliding_clamp_test {
 namespace {
 
 const Vector3 down{0, 0, -1};
@@ -107,4 +107,4 @@ TEST(sliding_clamp, without_a_clamp_there_is_nothing_to_slide) {
 }
 
 } // namespace
-} // namespace platen::fem
+} // namespace platen::fem::sliding_clamp_test

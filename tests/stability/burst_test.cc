@@ -12,7 +12,7 @@
 #include "tests/dem/examples.h"
 #include "tests/measured.h"
 
-namespace platen::dem {
+namespace platen::dem::burst_test {
 namespace {
 
 using namespace examples;
@@ -125,4 +125,4 @@ TEST(deep_overlaps, come_to_rest) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::burst_test

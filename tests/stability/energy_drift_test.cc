@@ -12,7 +12,7 @@
 #include "tests/dem/examples.h"
 #include "tests/measured.h"
 
-namespace platen::dem {
+namespace platen::dem::energy_drift_test {
 namespace {
 
 using namespace examples;
@@ -105,4 +105,4 @@ TEST(energy_drift, long_of_a_bar_over_a_million_steps) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::energy_drift_test

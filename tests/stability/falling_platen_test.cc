@@ -15,7 +15,7 @@
 #include "tests/elastic_nodes.h"
 #include "tests/measured.h"
 
-namespace platen::coupling {
+namespace platen::coupling::falling_platen_test {
 namespace {
 
 using namespace dem::examples;
@@ -165,4 +165,4 @@ TEST(falling_platen, a_wave_arrives_at_its_time) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::falling_platen_test

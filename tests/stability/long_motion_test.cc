@@ -11,7 +11,7 @@
 #include "tests/elastic_nodes.h"
 #include "tests/measured.h"
 
-namespace platen::coupling {
+namespace platen::coupling::long_motion_test {
 namespace {
 
 using measured::expect_below;
@@ -85,4 +85,4 @@ TEST(long_motion, long_a_sphere_sticks_and_slips_a_million_times_on_a_platen) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::long_motion_test

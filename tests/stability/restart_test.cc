@@ -11,7 +11,7 @@
 #include "tests/coupling/set_ups.h"
 #include "tests/measured.h"
 
-namespace platen::apps {
+namespace platen::apps::restart_test {
 namespace {
 
 using coupling::advance_to;
@@ -221,4 +221,4 @@ TEST_F(Restart, long_from_a_file_goes_on_to_the_same_bits_by_every_law_hold_mome
 }
 
 } // namespace
-} // namespace platen::apps
+} // namespace platen::apps::restart_test

@@ -9,7 +9,7 @@
 #include "dem/cell_grid.h"
 #include "tests/measured.h"
 
-namespace platen::dem {
+namespace platen::dem::size_ratio_test {
 namespace {
 
 using measured::expect_below;
@@ -91,4 +91,4 @@ TEST(size_ratio, a_whole_range_of_sizes_costs_little_too) {
 }
 
 } // namespace
-} // namespace platen::dem
+} // namespace platen::dem::size_ratio_test

@@ -12,7 +12,7 @@
 #include "tests/coupling/set_ups.h"
 #include "tests/measured.h"
 
-namespace platen::coupling {
+namespace platen::coupling::time_step_test {
 namespace {
 
 using measured::expect_below;
@@ -225,4 +225,4 @@ TEST(time_step, of_a_sleeve_may_be_several_of_its_spheres) {
 }
 
 } // namespace
-} // namespace platen::coupling
+} // namespace platen::coupling::time_step_test

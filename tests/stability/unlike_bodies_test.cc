@@ -10,7 +10,7 @@
 #include "tests/dem/examples.h"
 #include "tests/measured.h"
 
-namespace platen {
+namespace platen::unlike_bodies_test {
 namespace {
 
 using measured::expect_below;
@@ -119,4 +119,4 @@ TEST(unlike_bodies, long_soft_grains_between_platens_of_steel_that_oscillate) {
 }
 
 } // namespace
-} // namespace platen
+} // namespace platen::unlike_bodies_test
