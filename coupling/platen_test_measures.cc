@@ -14,7 +14,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 } // namespace
 
 double PlatenTest::coordination_number() const {
-  if (!model.bonds || model.particles.size() == 0) return 0;
+  if (!model.bonds) return 0;
   return 2.0 * static_cast<double>(model.bonds->initial_count()) /
          static_cast<double>(model.particles.size());
 }

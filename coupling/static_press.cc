@@ -64,7 +64,7 @@ bool update(Contacts &c, const dem::StaticState &state, double band) {
     force[k] = normal_force(c.near[k], state);
     if (c.pressed[k] && force[k] > 0) sum += force[k], ++pressed;
   }
-  const double undecided = pressed > 0 ? band * sum / static_cast<double>(pressed) : 0;
+  const double undecided = band * sum / static_cast<double>(std::max<std::size_t>(pressed, 1));
   bool settled = true;
   for (std::size_t k = 0; k < c.near.size(); ++k) {
     const bool presses = c.glued || force[k] > (c.pressed[k] ? -undecided : undecided);

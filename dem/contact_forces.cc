@@ -48,7 +48,6 @@ kernels::ContactBlock Contacts::block_of(Particles &p, std::size_t block) {
 
 void Contacts::compute(Particles &particles, double dt, const BlockList *listed, const Loop &before) {
   cut_blocks(particles);
-  if (table.size() == 0 && before.call == nullptr) return;
   const kernels::ContactColumns c = columns(particles);
   kernels::ContactStep step;
   step.dt = dt, step.dashpot = dashpot_;

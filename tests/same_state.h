@@ -30,7 +30,7 @@ State with_rows(const State &state, const std::string &block_name, const std::ve
     std::vector<char> bytes(block.rows * block.type.bytes_per_row());
     if (!bytes.empty()) state.read(name, bytes.data());
     if (name == block_name)
-      other.add(name, block.type, rows.data(), rows.size());
+      other.add(name, block.type, rows.data(), rows.size() * sizeof(T) / block.type.bytes_per_row());
     else
       other.add(name, block.type, bytes.data(), block.rows);
   }

@@ -70,14 +70,10 @@ struct BendingCohesive {
 template <class Real>
 PLATEN_INLINE auto BendingCohesive::whole(const CohesiveGeometry<Real> &g, const BondMotion<Real> &pose) const
     -> Whole<Real> {
-  const Real kn = g.normal_stiffness, ks = law.shear_ratio() * kn;
-  const Real square = dot(pose.distance, pose.distance), zero = square * 0.0;
-  const Triple<Real> none{zero, zero, zero};
+  const Real kn = g.normal_stiffness, ks = law.shear_ratio() * kn, square = dot(pose.distance, pose.distance);
   BondStrain<Real> e;
   e.length = root(square), e.per_square = 1.0 / square;
   Whole<Real> w{};
-  w.moments.force = w.moments.torque_i = w.moments.torque_j = none;
-  w.moments.energy = zero;
   bend_and_twist(w.moments, e, Real(0.25 * g.radius * g.radius * g.area * kn), 2.0 * law.shear_ratio() - 1.0,
                  pose);
   const Real turning = (2.0 * law.parameters.moment_contribution) * magnitude(e.half_cosine) * g.radius;

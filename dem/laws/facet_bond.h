@@ -342,7 +342,7 @@ PLATEN_INLINE void FacetBond::grow(State<Real> &s, const CohesiveGeometry<Real> 
   const Real more = (2.0 * parameters.fracture_energy) * g.normal_stiffness / strength / strength - 1.0;
   const Real steepest = where_positive(more, Real(2.0 / more), Real(zero + brittle)); // h_t
   // No more damage than by the softening in tension, and exp(-y) >= (1 - y/16)^16: most bonds unload.
-  Real bound = positive_part(Real(1.0 - steepest * positive_part(beyond) * (1.0 / 16)));
+  Real bound = positive_part(Real(1.0 - steepest * beyond * (1.0 / 16)));
   for (int k = 0; k < 4; ++k)
     bound = bound * bound;
   const Real most = larger(used, one) * (1.0 - s.damage) - bound;

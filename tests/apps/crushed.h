@@ -45,6 +45,10 @@ protected:
         frames_(frames),
         program_(fs::path(compress_command({}).front()).replace_filename(program)) {}
 
+  // Writes a scene: the crushed cylinder and `lines` after it, from line 2 on.
+  void scene(const std::string &name, const std::string &lines) const {
+    put(folder_ / name, "include " + scene_ + "\n" + lines);
+  }
   // Of a run into the folder `name` with entries of its own.
   Words arguments(const std::string &name, const Words &entries, const Words &options = {}) const {
     Words all{scene_, "-o", name};

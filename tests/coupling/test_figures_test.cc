@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include "tests/coupling/set_ups.h"
 #include "tests/same_state.h"
@@ -34,6 +35,20 @@ TEST(test_figures, a_density_of_the_solid_is_that_of_the_specimen) {
   EXPECT_NEAR(problem.facts().grain_density * problem.facts().packing_fraction, 2201, 1e-12 * 2201);
   const double crossing = specimen.shape.height * std::sqrt(4 * 2201 / problem.facts().voigt_modulus);
   EXPECT_NEAR(problem.facts().wave_transit, crossing, 1e-12 * crossing);
+}
+
+TEST(test_figures, the_coordination_number_is_the_mean_number_of_bonds_at_a_sphere) {
+  const PlatenTest problem(cylinder(), crushing());
+  const dem::Model &model = problem.model;
+  std::vector<double> bonds_at(model.particles.size(), 0);
+  for (std::size_t k = 0; k < model.bonds->size(); ++k)
+    ++bonds_at[static_cast<std::size_t>(model.bonds->first[k])],
+        ++bonds_at[static_cast<std::size_t>(model.bonds->second[k])];
+  double mean = 0;
+  for (const double bonds : bonds_at)
+    mean += bonds / static_cast<double>(bonds_at.size());
+  EXPECT_NEAR(problem.coordination_number(), mean, 1e-12 * mean);
+  EXPECT_GT(mean, 4);
 }
 
 TEST(test_figures, platens_without_a_thickness_have_a_tenth_of_the_height) {

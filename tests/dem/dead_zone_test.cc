@@ -114,6 +114,17 @@ TEST(dead_zone, the_base_decides) {
       EXPECT_STREQ(words_of(zone.verdict), words_of(verdict)) << wanted.base() << " " << zone.base_ratio;
 }
 
+// No solid of Mohr and Coulomb leaves a cone of more than 45 degrees; what looks like one of up to 50 is
+// taken.
+TEST(dead_zone, what_is_wider_than_50_degrees_is_no_cone) {
+  for (const auto &[wanted, verdict] : std::vector<std::pair<Wanted, DeadZoneVerdict>>{
+           {{46, 20}, DeadZoneVerdict::cone}, {{57, 20}, DeadZoneVerdict::does_not_narrow}})
+    for (const DeadZone &zone : zones_of(cones(wanted, wanted)).at_end) {
+      EXPECT_STREQ(words_of(zone.verdict), words_of(verdict)) << zone.half_angle / degree;
+      EXPECT_NEAR(zone.half_angle / degree, wanted.half_angle, 4); // the rim cuts most of its flank
+    }
+}
+
 // Both platens go the same way further, and one leans: cones are what goes with them.
 TEST(dead_zone, what_the_platens_do_by_themselves_is_taken_off) {
   const Wanted bottom{30, 34}, top{28, 37};

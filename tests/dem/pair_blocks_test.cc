@@ -12,6 +12,7 @@
 #include "dem/model.h"
 #include "dem/pair_lists.h"
 #include "tests/dem/examples.h"
+#include "tests/same_state.h"
 
 namespace platen::dem::pair_blocks_test {
 namespace {
@@ -275,6 +276,35 @@ TEST(pair_lists, a_pair_that_is_added_moves_as_much_in_a_large_specimen_as_in_a_
   EXPECT_NEAR(large / small, 1, .2);
   // Half a block of three pairs each in the mean.
   EXPECT_NEAR(small, .5 * 3 * block_rows * sizeof(IndexPair), .2 * small);
+}
+
+// The last bond of the first block, which ends in the second, and the one after it.
+TEST(pair_blocks, a_state_with_bonds_that_are_not_in_the_order_of_blocks_is_refused) {
+  Model model(examples::row(1100, {1, 0, 0}), examples::bonded());
+  const State good = state_of(model);
+  State exchanged = good;
+  constexpr std::size_t last = block_rows - 1;
+  for (const std::string &name : good.names())
+    if (name.find("bonds/rows/") != std::string::npos && good.find(name)->rows > last + 1) {
+      const std::size_t size = good.find(name)->type.bytes_per_row();
+      std::vector<char> rows(good.find(name)->rows * size);
+      good.read(name, rows.data());
+      const auto of_last = rows.begin() + static_cast<std::ptrdiff_t>(last * size);
+      std::swap_ranges(of_last, of_last + static_cast<std::ptrdiff_t>(size),
+                       of_last + static_cast<std::ptrdiff_t>(size));
+      exchanged = with_rows(exchanged, name, rows);
+    }
+  const auto read = [&](const State &state) {
+    read_parts(state, [&](Archive &archive) { archive.part("state", model); });
+  };
+  try {
+    read(exchanged);
+    ADD_FAILURE() << "was taken";
+  } catch (const StateError &e) {
+    EXPECT_STREQ(e.what(),
+                 "\"state/bonds/rows/first\", row 512: 511. Allowed: in the order of blocks of particles.");
+  }
+  EXPECT_NO_THROW(read(good));
 }
 
 } // namespace
