@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "apps/scene/texts.h"
+
 namespace platen::apps {
 namespace {
 

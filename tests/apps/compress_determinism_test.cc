@@ -354,8 +354,11 @@ TEST_F(Determinism, a_second_run_in_its_folder_is_refused_and_changes_nothing) {
 bool holds_signals_back(pid_t id) {
   std::ifstream status("/proc/" + std::to_string(id) + "/status");
   for (std::string line; std::getline(status, line);)
-    if (line.rfind("SigBlk:", 0) == 0)
-      return (std::stoull(line.substr(7), nullptr, 16) >> (SIGUSR1 - 1) & 1) != 0;
+    if (line.rfind("SigBlk:", 0) == 0) {
+      const unsigned long long held = std::stoull(line.substr(7), nullptr, 16);
+      const auto holds = [&](int number) { return (held >> (number - 1) & 1) != 0; };
+      return holds(SIGUSR1) && !holds(SIGCHLD); // between fork and exec all are held
+    }
   return false;
 }
 

@@ -18,7 +18,7 @@ protected:
   void ask(int status, const Words &what, const std::string &says = "") const {
     expect(status, says, "a", with(options_, what), kind_);
   }
-  void make_whole() const { ASSERT_EQ(run("whole", options_, kind_).status, 0); }
+  void make_whole() const { make_once("whole", options_, kind_); }
   void expect_same() const {
     expect_same_tables("whole", "a");
     for (const auto &entry : fs::directory_iterator(folder_ / "whole/runs"))

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <random>
 #include <sstream>
 #include <thread>
@@ -91,6 +92,16 @@ protected:
     outcome.out = content_of(folder_ / "out.txt");
     outcome.error = content_of(folder_ / "error.txt");
     return outcome;
+  }
+  // The whole study with these options as the folder `name`, made once for all tests of this process.
+  void make_once(const std::string &name, const Words &options, const std::string &kind = "size") const {
+    static std::map<Words, fs::path> made;
+    fs::path &one = made[with({kind}, options)];
+    if (one.empty()) {
+      one = process_folder() / ("study_" + std::to_string(made.size()));
+      ASSERT_EQ(run(one.string(), options, kind).status, 0) << content_of(folder_ / "error.txt");
+    }
+    fs::copy(one, folder_ / name, fs::copy_options::recursive);
   }
   // A run that ends with this status and these words on standard error.
   void expect(int status, const std::string &says, const std::string &name, const Words &options,

@@ -52,7 +52,7 @@ TEST_F(Study, rows_are_the_runs_and_means_are_of_the_rows) {
 }
 
 TEST_F(Study, the_number_of_runs_at_a_time_changes_no_byte) {
-  ASSERT_EQ(run("one", {"--quiet"}).status, 0);
+  make_once("one", {});
   ASSERT_EQ(run("three", {"--quiet", "-t", "3"}).status, 0);
   expect_same_tables("one", "three");
 }
@@ -70,7 +70,7 @@ TEST_F(Study, several_at_a_time_start_the_longest_first) {
 }
 
 TEST_F(Study, one_stopped_by_a_signal_goes_on_to_the_same_table) {
-  ASSERT_EQ(run("whole", slow).status, 0);
+  make_once("whole", slow);
   for (const int signal : {SIGTERM, SIGINT}) {
     const std::string name = "stopped_" + std::to_string(signal);
     Program program(command(name, slow), folder_);
@@ -90,7 +90,7 @@ TEST_F(Study, one_stopped_by_a_signal_goes_on_to_the_same_table) {
 }
 
 TEST_F(Study, a_killed_one_leaves_no_run_behind_and_goes_on) {
-  ASSERT_EQ(run("whole", slow).status, 0);
+  make_once("whole", slow);
   Program program(command("killed", slow), folder_);
   const fs::path inner = folder_ / "killed/runs" / met_at_work;
   ASSERT_TRUE(program.wait_until([&] { return lines_in(inner / "history.csv") >= 20; }));
@@ -233,7 +233,7 @@ TEST_F(Study, a_case_that_fails_is_told_and_survived) {
 
 // It is the machine that fails, not the case: no further run would fare better.
 TEST_F(Study, a_disk_that_fills_in_a_run_ends_it_and_it_goes_on_later) {
-  ASSERT_EQ(run("whole", {"--quiet"}).status, 0);
+  make_once("whole", {});
   // No file may grow beyond what tables of studies have, and less than the history of a run: what a full disk
   // does, but to these processes alone.
   rlimit before{};
