@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets up and builds everything, or the targets named, into build/. Where CI is set, warnings are errors. A new build
-# folder compiles sources several at a time, which takes half as long; one that is there keeps its way.
+# folder compiles sources several at a time, which takes 40 % less; one that is there keeps its way.
 #   scripts/build.sh [TARGET...]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
