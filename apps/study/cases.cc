@@ -126,7 +126,7 @@ StudyPlan plan_vary(const Scene &scene) {
     std::vector<StudyCase> all;
     for (const StudyCase &before : plan.cases)
       for (const std::string &value : one.values) {
-        const std::string name = as_name(one.path.substr(one.path.rfind('/') + 1) + " " + value);
+        const std::string name = as_name(last_name(one.path) + " " + value);
         const double number = number_of(value, unit);
         StudyCase with{name, {one.path + " = " + value}, {number}, {std::isnan(number) ? value : ""}};
         if (one.path != "Loading/Confining pressure") with.envelope = name;
