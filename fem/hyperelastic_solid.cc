@@ -9,6 +9,7 @@
 #include "base/require.h"
 
 namespace platen::fem {
+
 HyperelasticSolid::HyperelasticSolid(Grid grid, const Rubber &material, const std::vector<int> &contact_tags)
     : grid_(std::move(grid)), material_(material), mesh_(read_mesh(grid_)) {
   require(material.density > 0 && std::isfinite(material.density), "solid: density must be positive");

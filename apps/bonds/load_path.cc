@@ -12,8 +12,8 @@ namespace {
 // A load that is put on at once overshoots, to twice its step where nothing damps it: a step takes
 // up less than half of the strength that is left, but not less than the accuracy of the breaking load.
 constexpr double share_of_reserve = .4, finest_step = 2e-4;
-constexpr double share_of_first_step =
-    1e-3; // of the largest load, until a bond's utilisation tells how far it may go
+// Of the largest load, until a bond's utilisation tells how far it may go.
+constexpr double share_of_first_step = 1e-3;
 
 // Turning points over the largest load, tension positive: two spheres go through a cycle; three only stand on
 // their plate.

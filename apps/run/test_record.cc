@@ -11,8 +11,6 @@
 #include "dem/measure/gauge.h"
 
 namespace platen::apps {
-namespace {} // namespace
-
 std::size_t bytes_per_bond(const dem::Model &model) {
   if (!model.bonds) return 0;
   const dem::Bonds &b = *model.bonds;

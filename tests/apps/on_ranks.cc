@@ -97,9 +97,13 @@ std::string OnRanks::unlike(const fs::path &one, const std::string &other) const
 }
 
 std::string OnRanks::unlike_at_end(const fs::path &one, const std::string &other) const {
-  const auto last = [](const fs::path &run) { return blocks_in(*checkpoints_of(run).rbegin()); };
-  return difference(results_in(folder_ / one), results_in(folder_ / other)) +
-         difference(last(folder_ / one), last(folder_ / other));
+  std::string all = difference(results_in(folder_ / one), results_in(folder_ / other));
+  const std::set<fs::path> files = checkpoints_of(folder_ / one);
+  for (const fs::path &file : files)
+    if (const fs::path twin = folder_ / other / "checkpoint" / file.filename();
+        file == *files.rbegin() || fs::exists(twin))
+      all += difference(blocks_in(file), blocks_in(twin));
+  return all;
 }
 
 pid_t process_of_rank(pid_t mpirun, int rank) {

@@ -41,7 +41,7 @@ protected:
   // Files and blocks of checkpoints in which two runs differ, but for what tells time and machine; "" where
   // they agree.
   std::string unlike(const std::filesystem::path &one, const std::string &other) const;
-  // The same of results and the last checkpoint: after a stop, the one before may be that of the stop.
+  // The same, but that the checkpoint before the last may be another one: that of a stop.
   std::string unlike_at_end(const std::filesystem::path &one, const std::string &other) const;
 };
 

@@ -45,18 +45,20 @@ TEST(RefusedStudy, of_platens) {
                    "holds several: a study of slenderness has one kind of platens"}});
 }
 
+const std::vector<Refused> of_size{
+    {{"Study/Sphere radius list = 1 mm, 0.001"}, "twice"},
+    {{"Study/Sphere radius list = 1 mm,"}, "is empty"},
+    {{"Study/Sphere radius list = 30 mm"}, "sphere_radius_30_mm, which cannot be run"},
+    {{"Study/Domain list = 20 mm"}, "is no pair"},
+    {{"Study/Domain list = 20 mm x 5 s"}, "20 mm x 5 s"},
+    {{"Study/Seeds = 0"}, "Study/Seeds"},
+    {{"Scene/Seed = 4294967295"}, "Scene/Seed"},
+    {{"Specimen/Shape = box", "Specimen/Radius =", "Specimen/Width x = 20 mm", "Specimen/Width y = 20 mm",
+      "Study/Domain list = 20 mm x 5 mm"},
+     "holds cylinders"}};
+
 TEST(RefusedStudy, of_sizes_packings_and_rates) {
-  expect_refused(StudyKind::size, {},
-                 {{{"Study/Sphere radius list = 1 mm, 0.001"}, "twice"},
-                  {{"Study/Sphere radius list = 1 mm,"}, "is empty"},
-                  {{"Study/Sphere radius list = 30 mm"}, "sphere_radius_30_mm, which cannot be run"},
-                  {{"Study/Domain list = 20 mm"}, "is no pair"},
-                  {{"Study/Domain list = 20 mm x 5 s"}, "20 mm x 5 s"},
-                  {{"Study/Seeds = 0"}, "Study/Seeds"},
-                  {{"Scene/Seed = 4294967295"}, "Scene/Seed"},
-                  {{"Specimen/Shape = box", "Specimen/Radius =", "Specimen/Width x = 20 mm",
-                    "Specimen/Width y = 20 mm", "Study/Domain list = 20 mm x 5 mm"},
-                   "holds cylinders"}});
+  expect_refused(StudyKind::size, {}, of_size);
   expect_refused(StudyKind::rate, {}, {{{}, "Study/Axial rate list is not set"}});
   expect_refused(StudyKind::packing, {}, {{{}, "Study/Gap list is not set"}});
 }
@@ -139,17 +141,7 @@ TEST_F(Study, faults_are_refused_before_anything_is_written) {
   expect(2, "Did you mean \"size\"?", "a", {}, "sizes");
   expect(2, "Study/Axial rate list is not set", "a", {}, "rate");
   expect(2, "Study/Gap list is not set", "a", {}, "packing");
-  for (const Refused &one : std::vector<Refused>{
-           {{"Study/Sphere radius list = 1 mm, 0.001"}, "twice"},
-           {{"Study/Sphere radius list = 1 mm,"}, "is empty"},
-           {{"Study/Sphere radius list = 30 mm"}, "sphere_radius_30_mm, which cannot be run"},
-           {{"Study/Domain list = 20 mm"}, "is no pair"},
-           {{"Study/Domain list = 20 mm x 5 s"}, "20 mm x 5 s"},
-           {{"Study/Seeds = 0"}, "Study/Seeds"},
-           {{"Scene/Seed = 4294967295"}, "Scene/Seed"},
-           {{"Specimen/Shape = box", "Specimen/Radius =", "Specimen/Width x = 20 mm",
-             "Specimen/Width y = 20 mm", "Study/Domain list = 20 mm x 5 mm"},
-            "holds cylinders"}}) {
+  for (const Refused &one : of_size) {
     expect(2, one.says, "a", set(one.entries));
     EXPECT_FALSE(fs::exists(folder_ / "a"));
   }

@@ -116,20 +116,6 @@ TEST(bond_failure, tension_breaks_brittly_at_the_strength) {
   EXPECT_NEAR(pair.model.works.fracture, held, 3e-3 * held);
 }
 
-// The last bond of the first block of 512 spheres; the second of its spheres is in the next block. All others
-// stay at rest.
-TEST(bond_failure, one_between_two_blocks_pulls_at_neither_once_it_is_broken) {
-  Model model(row(1100, {1, 0, 0}), breakable());
-  Particles &p = model.particles;
-  for (std::size_t i = 512; i < p.size(); ++i)
-    p.position[i].x += 2 * radius * 1.2 * breaking_strain;
-  model.compute_forces(1e-9);
-  EXPECT_EQ(model.broken_tension, 1);
-  const double strength = tensile_strength * area; // others hold round-off of a place 2.9 m away
-  for (std::size_t i = 0; i < p.size(); ++i)
-    ASSERT_LT(norm(p.force[i]), 1e-6 * strength) << i;
-}
-
 TEST(bond_failure, a_crack_is_logged_where_and_when_it_opens) {
   Pair pair(breakable());
   pair.model.time = 3.5;

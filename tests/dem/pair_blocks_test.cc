@@ -278,6 +278,21 @@ TEST(pair_lists, a_pair_that_is_added_moves_as_much_in_a_large_specimen_as_in_a_
   EXPECT_NEAR(small, .5 * 3 * block_rows * sizeof(IndexPair), .2 * small);
 }
 
+// The last bond of the first block of 512 spheres; the second of its spheres is in the next block. All others
+// stay at rest.
+TEST(pair_blocks, a_bond_between_two_blocks_pulls_at_neither_once_it_is_broken) {
+  using namespace examples;
+  Model model(row(1100, {1, 0, 0}), breakable());
+  Particles &p = model.particles;
+  for (std::size_t i = 512; i < p.size(); ++i)
+    p.position[i].x += 1.2 * tensile_strength / normal_stiffness;
+  model.compute_forces(1e-9);
+  EXPECT_EQ(model.broken_tension, 1);
+  const double strength = tensile_strength * area; // others hold round-off of a place 2.9 m away
+  for (std::size_t i = 0; i < p.size(); ++i)
+    ASSERT_LT(norm(p.force[i]), 1e-6 * strength) << i;
+}
+
 // The last bond of the first block, which ends in the second, and the one after it.
 TEST(pair_blocks, a_state_with_bonds_that_are_not_in_the_order_of_blocks_is_refused) {
   Model model(examples::row(1100, {1, 0, 0}), examples::bonded());
