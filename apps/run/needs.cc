@@ -102,9 +102,9 @@ struct Need {
 std::vector<Need> needs_of(const Scene &scene, const dem::Shape &shape,
                            const coupling::PlatenTestSettings &settings) {
   std::vector<Need> needs;
-  const auto add = [&](Need::Of of, const std::string &entry, const std::string &what, double number,
+  const auto add = [&](Need::Of of, const std::string &entry, const std::string &what, double amount,
                        double bytes) {
-    needs.push_back({of, entry, what, number, bytes * number});
+    needs.push_back({of, entry, what, amount, bytes * amount});
   };
   if (scene.specimen.packing != PackingKind::file)
     add(Need::Of::spheres, "Specimen/Sphere radius", "spheres", spheres_in(scene, shape), bytes_of_sphere);
