@@ -13,7 +13,6 @@
 #include "base/archive.h"
 #include "base/vector3.h"
 #include "coupling/contact/contact_layer.h"
-#include "coupling/program/platen_speed.h"
 #include "dem/energy.h"
 #include "dem/particles.h"
 #include "dem/stable_step.h"

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "base/describe.h"
-#include "dem/bonds.h"
+#include "dem/laws/bond_layout.h"
 
 namespace platen::dem {
 

@@ -28,6 +28,21 @@ const std::map<std::string, std::regex> &forbidden_includes() {
   return rules;
 }
 
+// Within a room: laws and contacts are below what uses them.
+const std::map<std::string, std::regex> &forbidden_within() {
+  static const std::map<std::string, std::regex> rules = {
+      {"dem/laws/", std::regex("^dem/(?!laws/)")},
+      {"coupling/contact/", std::regex("^coupling/(?!contact/)")},
+      {"coupling/program/", std::regex("^coupling/boundaries/")}};
+  return rules;
+}
+
+bool goes_up_within(const std::string &file, const std::string &path) {
+  for (const auto &[folder, forbidden] : forbidden_within())
+    if (file.rfind(folder, 0) == 0 && std::regex_search(path, forbidden)) return true;
+  return false;
+}
+
 // <cstdio> itself may be included for snprintf; what opens a file may not be called. deal.II's parallel
 // writers open files of their own, and VTK is not there to be called.
 const std::regex &file_opening() {
@@ -102,7 +117,7 @@ std::vector<Violation> check_source(const std::string &folder, const std::string
   for (int number = 1; std::getline(lines, line) && std::getline(literals, literal); ++number) {
     if (std::regex_search(line, match, include)) {
       const std::string path = match[1];
-      if (std::regex_search(path, rule->second))
+      if (std::regex_search(path, rule->second) || goes_up_within(file, path))
         violations.push_back({file, number, folder + "/ must not include " + path});
       else if (folder == "dist" && is_header(file) && std::regex_search(path, of_partitioner()))
         violations.push_back({file, number, "a header of dist/ must not include " + path});

@@ -47,6 +47,20 @@ TEST(Layering, a_header_of_ranks_asks_for_no_partitioner) {
   EXPECT_EQ(check_source("dist", "dist/cut.h", "#include <mpi.h>\n").size(), 0u);
 }
 
+TEST(Layering, laws_and_contacts_include_nothing_of_what_uses_them) {
+  const auto count = [](const std::string &folder, const std::string &file, const std::string &path) {
+    return check_source(folder, file, "#include \"" + path + "\"\n").size();
+  };
+  EXPECT_EQ(count("dem", "dem/laws/a.h", "dem/bonds.h"), 1u);
+  EXPECT_EQ(count("dem", "dem/laws/a.h", "dem/laws/bond_layout.h"), 0u);
+  EXPECT_EQ(count("dem", "dem/bonds.h", "dem/laws/bond_layout.h"), 0u);
+  EXPECT_EQ(count("coupling", "coupling/contact/a.cc", "coupling/program/drive.h"), 1u);
+  EXPECT_EQ(count("coupling", "coupling/contact/a.cc", "coupling/boundary.h"), 1u);
+  EXPECT_EQ(count("coupling", "coupling/contact/a.cc", "coupling/contact/faces.h"), 0u);
+  EXPECT_EQ(count("coupling", "coupling/program/a.h", "coupling/boundaries/sleeve.h"), 1u);
+  EXPECT_EQ(count("coupling", "coupling/program/a.h", "coupling/boundary.h"), 0u);
+}
+
 TEST(Layering, elements_may_not_include_particles_and_coupling_may_include_both) {
   const std::string particles = "#include \"dem/bonds.h\"\n", elements = "#include \"fem/surface_mesh.h\"\n";
   const std::string coupling = "#include \"coupling/problem.h\"\n",
