@@ -1,7 +1,5 @@
 // What a break costs in specimens of several sizes, which should be the same: the bond's force passes to its
 // contact, and the next loop over contacts has the new row.
-#include <CLI/CLI.hpp>
-
 #include <cstdio>
 #include <vector>
 
@@ -50,11 +48,10 @@ void measure(int particles, int breaks) {
 int main(int argc, char **argv) {
   std::vector<int> particles{20000, 80000, 320000};
   int breaks = 400;
-  CLI::App app{"What a break of a bond costs, by the size of the specimen"};
-  app.add_option("--particles", particles, "Spheres of each specimen");
-  app.add_option("--breaks", breaks, "Bonds that are broken in each, one after the other")
-      ->check(CLI::PositiveNumber);
-  CLI11_PARSE(app, argc, argv);
+  bench::read_arguments(
+      argc, argv, "What a break of a bond costs, by the size of the specimen.",
+      {{"--particles", &particles, "spheres of each specimen", 100, 2e7},
+       {"--breaks", &breaks, "bonds that are broken in each, one after the other", 1, 1e6}});
   const ThreadLimit one(1);
   for (const int n : particles)
     measure(n, breaks);

@@ -160,10 +160,8 @@ int main(int argc, char **argv) {
   bench::Workload o;
   o.repeats = 7;
   int threads = 1;
-  CLI::App app("Cost of each effect of a scene, alone and together.");
-  o.declare(app);
-  app.add_option("--threads", threads, "threads")->check(CLI::Range(1, 256));
-  CLI11_PARSE(app, argc, argv);
+  bench::read_arguments(argc, argv, "Cost of each effect of a scene, alone and together.",
+                        o.arguments(false, {{"--threads", &threads, "threads", 1, 256}}));
 
   const ThreadLimit limit(threads);
   std::printf("%s, %d threads, %s kernels\n", apps::this_machine().processor.c_str(), threads,

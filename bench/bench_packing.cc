@@ -1,18 +1,16 @@
 // What packings of any size cost, and how good they are: overall, in slabs from the wall inwards, and in
 // slabs across the axis. Results stand in results/packing.md.
-#include <CLI/CLI.hpp>
-
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "apps/output/machine.h"
 #include "apps/output/specimen_csv.h"
+#include "arguments.h"
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "base/pi.h"
@@ -25,17 +23,9 @@ namespace {
 
 using namespace platen;
 
-enum class Kind { front, grown, tiled };
-const std::map<std::string, Kind> kinds{
-    {"front", Kind::front}, {"grown", Kind::grown}, {"tiled", Kind::tiled}};
-const std::map<std::string, dem::ShapeKind> shapes{{"cylinder", dem::ShapeKind::cylinder},
-                                                   {"box", dem::ShapeKind::box}};
-
 struct Options {
-  Kind kind = Kind::grown;
-  dem::ShapeKind shape = dem::ShapeKind::box;
-  std::size_t spheres = 22500, tile = 50000;
-  int threads = 1, seed = 1;
+  std::string kind = "grown", shape = "box";
+  int spheres = 22500, tile = 50000, threads = 1, seed = 1;
   double spread = 0, at_rest = 1e-2;
   bool slabs = false;
   std::string write;
@@ -47,10 +37,10 @@ constexpr double close_fraction = 0.63, front_fraction = 0.54;
 
 // A cube, or a cylinder twice as high as wide.
 dem::Shape shape_for(const Options &o) {
-  const double fraction = o.kind == Kind::front ? front_fraction : close_fraction;
+  const double fraction = o.kind == "front" ? front_fraction : close_fraction;
   const double volume = static_cast<double>(o.spheres) * dem::sphere_volume(radius) *
                         (1 + 0.25 * o.spread * o.spread) / fraction;
-  if (o.shape == dem::ShapeKind::box) {
+  if (o.shape == "box") {
     const double edge = std::cbrt(volume);
     return dem::box(edge, edge, edge);
   }
@@ -60,16 +50,17 @@ dem::Shape shape_for(const Options &o) {
 
 dem::Specimen packed(const Options &o, const dem::Shape &shape) {
   const std::uint64_t seed = static_cast<std::uint64_t>(o.seed);
-  if (o.kind == Kind::front)
+  const std::size_t spheres = static_cast<std::size_t>(o.spheres), tile = static_cast<std::size_t>(o.tile);
+  if (o.kind == "front")
     return dem::advancing_front(shape, dem::uniform_radii_of_spread(radius, o.spread), seed);
-  if (o.kind == Kind::grown) {
+  if (o.kind == "grown") {
     dem::GrowthReport made;
-    dem::Specimen specimen = dem::random_close_packing_of(shape, o.spheres, o.spread, seed, &made);
+    dem::Specimen specimen = dem::random_close_packing_of(shape, spheres, o.spread, seed, &made);
     std::printf("%ld iterations, %d stages\n", made.iterations, made.stages);
     return specimen;
   }
   dem::TilingReport made;
-  dem::Specimen specimen = dem::tiled_close_packing(shape, radius, o.spread, o.tile, seed, &made, o.at_rest);
+  dem::Specimen specimen = dem::tiled_close_packing(shape, radius, o.spread, tile, seed, &made, o.at_rest);
   std::printf("%.2f tiles of %zu (fraction %.4f, %ld iterations), period %.2f R; %ld iterations, %d stages\n",
               made.tiles, made.tile.spheres, made.tile.packing_fraction, made.tile.iterations,
               made.period / radius, made.whole.iterations, made.whole.stages);
@@ -185,19 +176,18 @@ void judge(const dem::Specimen &s, const Options &o) {
 
 int main(int argc, char **argv) {
   Options o;
-  CLI::App app("Seconds and quality of packings.");
-  app.add_option("--kind", o.kind, "front, grown or tiled")->transform(CLI::CheckedTransformer(kinds));
-  app.add_option("--shape", o.shape, "box or cylinder")->transform(CLI::CheckedTransformer(shapes));
-  app.add_option("--spheres", o.spheres, "about so many, of 1 mm radius")->check(CLI::Range(100, 100000000));
-  app.add_option("--tile", o.tile, "spheres of a tile")->check(CLI::Range(200, 5000000));
-  app.add_option("--threads", o.threads, "threads")->check(CLI::Range(1, 256));
-  app.add_option("--seed", o.seed, "seed")->check(CLI::Range(0, 1000000));
-  app.add_option("--spread", o.spread, "of the radii")->check(CLI::Range(0., 1.5));
-  app.add_option("--at-rest", o.at_rest, "residual force at which a stage of tiles ends")
-      ->check(CLI::Range(1e-4, 0.1));
-  app.add_flag("--slabs", o.slabs, "quality in slabs too");
-  app.add_option("--write-specimen", o.write, "write the packing to this file");
-  CLI11_PARSE(app, argc, argv);
+  bench::read_arguments(
+      argc, argv, "Seconds and quality of packings.",
+      {{"--kind", &o.kind, "how they are made", 0, 0, {"front", "grown", "tiled"}},
+       {"--shape", &o.shape, "of the specimen", 0, 0, {"box", "cylinder"}},
+       {"--spheres", &o.spheres, "about so many, of 1 mm radius", 100, 1e8},
+       {"--tile", &o.tile, "spheres of a tile", 200, 5e6},
+       {"--threads", &o.threads, "threads", 1, 256},
+       {"--seed", &o.seed, "seed", 0, 1e6},
+       {"--spread", &o.spread, "of the radii", 0, 1.5},
+       {"--at-rest", &o.at_rest, "residual force at which a stage of tiles ends", 1e-4, 0.1},
+       {"--slabs", &o.slabs, "quality in slabs too"},
+       {"--write-specimen", &o.write, "write the packing to this file"}});
 
   const ThreadLimit limit(o.threads);
   const auto start = Clock::now();

@@ -157,9 +157,8 @@ void measure(const bench::Workload &o) {
 int main(int argc, char **argv) {
   bench::Workload o;
   o.steps = 200, o.repeats = 21;
-  CLI::App app("Steps of a bonded specimen on several ranks, beside one process.");
-  o.declare(app);
-  CLI11_PARSE(app, argc, argv);
+  bench::read_arguments(argc, argv, "Steps of a bonded specimen on several ranks, beside one process.",
+                        o.arguments(false));
   int level = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);

@@ -1,11 +1,10 @@
 // What a sleeve costs: explicit steps by size. The sleeve of a 150 x 300 mm specimen, 3 mm of rubber, ends
 // fixed, blown up a little; one line per mesh: cells, unknowns, time of a step per cell, stable step.
-#include <CLI/CLI.hpp>
-
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
+#include "arguments.h"
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "base/pi.h"
@@ -57,11 +56,10 @@ void measure(int around, int along, int through, double poisson, int steps) {
 } // namespace
 
 int main(int count, char **arguments) {
-  CLI::App app{"Cost of a sleeve: explicit steps by size"};
   int threads = 1, steps = 100;
-  app.add_option("-t,--threads", threads, "threads, 0: all")->capture_default_str();
-  app.add_option("-s,--steps", steps, "explicit steps per mesh")->capture_default_str();
-  CLI11_PARSE(app, count, arguments);
+  platen::bench::read_arguments(count, arguments, "Cost of a sleeve: explicit steps by size.",
+                                {{"-t,--threads", &threads, "threads, 0: all", 0, 256},
+                                 {"-s,--steps", &steps, "explicit steps per mesh", 1, 1e9}});
   const platen::ThreadLimit limit(threads);
   for (const double poisson : {0.49, 0.4995}) {
     measure(32, 20, 1, poisson, steps);

@@ -62,15 +62,14 @@ int main(int argc, char **argv) {
   int threads = 1;
   double friction = 1e6, strain = 1e-5;
   bool explicitly_too = false;
-  CLI::App app("Static solves against explicit steps.");
-  o.declare(app), o.declare_law(app);
-  app.add_option("--threads", threads, "threads of steps and solves")->check(CLI::Range(1, 256));
-  app.add_option("--friction", friction,
-                 "of the platens, in explicit steps; in static solves all of it sticks")
-      ->check(CLI::Range(0., 1e9));
-  app.add_option("--strain", strain, "closure of the platens over the height")->check(CLI::Range(1e-9, 1e-2));
-  app.add_flag("--explicit", explicitly_too, "make all of the explicit steps and compare what they give");
-  CLI11_PARSE(app, argc, argv);
+  bench::read_arguments(
+      argc, argv, "Static solves against explicit steps.",
+      o.arguments(true, {{"--threads", &threads, "threads of steps and solves", 1, 256},
+                         {"--friction", &friction,
+                          "of the platens, in explicit steps; in static solves all of it sticks", 0, 1e9},
+                         {"--strain", &strain, "closure of the platens over the height", 1e-9, 1e-2},
+                         {"--explicit", &explicitly_too,
+                          "make all of the explicit steps and compare what they give"}}));
 
   const ThreadLimit limit(threads);
   const dem::Specimen specimen = o.specimen();

@@ -83,12 +83,15 @@ int main(int argc, char **argv) {
   o.steps = 500;
   std::vector<int> threads{1};
   bool baseline = false, avx2 = false;
-  CLI::App app("Bond-steps per second of a bonded specimen between rigid platens.");
-  o.declare(app), o.declare_law(app);
-  app.add_option("--threads", threads, "threads; several numbers: in turn")->check(CLI::Range(1, 256));
-  app.add_flag("--baseline", baseline, "the kernels of plain x86-64");
-  app.add_flag("--avx2", avx2, "the kernels of AVX2")->excludes("--baseline");
-  CLI11_PARSE(app, argc, argv);
+  bench::read_arguments(
+      argc, argv, "Bond-steps per second of a bonded specimen between rigid platens.",
+      o.arguments(true, {{"--threads", &threads, "threads; several numbers: in turn", 1, 256},
+                         {"--baseline", &baseline, "the kernels of plain x86-64"},
+                         {"--avx2", &avx2, "the kernels of AVX2"}}));
+  if (baseline && avx2) {
+    std::fprintf(stderr, "bench_step: --avx2 excludes --baseline\n");
+    return 2;
+  }
 
   coupling::PlatenTestSettings chosen = o.press();
   if (baseline) chosen.model.instruction_set = dem::InstructionSet::baseline;

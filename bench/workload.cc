@@ -48,18 +48,17 @@ const std::map<std::string, void (*)(dem::ModelSettings &)> laws{
 
 } // namespace
 
-void Workload::declare(CLI::App &app) {
-  app.add_option("--particles", particles, "spheres of 1 mm radius")->check(CLI::Range(100, 20000000));
-  app.add_option("--steps", steps, "steps per repeat")->check(CLI::Range(1, 1000000000));
-  app.add_option("--repeats", repeats, "repeats; the median is printed")->check(CLI::Range(1, 1000));
-  app.add_option("--specimen", read, "a packing from this file instead")->check(CLI::ExistingFile);
-}
-
-void Workload::declare_law(CLI::App &app) {
+std::vector<Argument> Workload::arguments(bool of_law, const std::vector<Argument> &further) {
+  std::vector<Argument> all{{"--particles", &particles, "spheres of 1 mm radius", 100, 2e7},
+                            {"--steps", &steps, "steps per repeat", 1, 1e9},
+                            {"--repeats", &repeats, "repeats; the median is printed", 1, 1000},
+                            {"--specimen", &read, "a packing from this file instead"}};
   std::vector<std::string> words;
   for (const auto &[word, set] : laws)
     words.push_back(word);
-  app.add_option("--law", law, "law of the bonds")->check(CLI::IsMember(words));
+  if (of_law) all.push_back({"--law", &law, "law of the bonds", 0, 0, words});
+  all.insert(all.end(), further.begin(), further.end());
+  return all;
 }
 
 dem::Specimen Workload::specimen() const {

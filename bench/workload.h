@@ -2,12 +2,11 @@
 // normal, shear, bending and twisting, pressed elastically between two rigid platens.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <string>
 #include <vector>
 
+#include "arguments.h"
 #include "base/clock.h"
 #include "coupling/platen_test.h"
 #include "dem/packing/specimen.h"
@@ -19,8 +18,8 @@ struct Workload {
   std::string read; // a packing, in place of `particles` spheres
   std::string law = "parallel-bond";
 
-  void declare(CLI::App &app); // all but the law
-  void declare_law(CLI::App &app);
+  // These members, the law where `of_law`, and further ones.
+  std::vector<Argument> arguments(bool of_law, const std::vector<Argument> &further = {});
   // A cylinder twice as high as wide; above 50 000 spheres a box twice as high as wide, of tiles of 20 000.
   dem::Specimen specimen() const;
   // Failure checks, energy balance, local damping and contacts on; strengths that nothing reaches.
