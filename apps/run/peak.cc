@@ -64,14 +64,13 @@ std::string words_against(const PeakOfCurve &peak) {
   if (!(peak.largest > 0)) return "no peak was reached: the platens bore nothing";
   if (peak.asked && peak.gained < gain_of_a_rise)
     return fmt::format(
-        "no peak was reached: by the strain of {:.4g} the stress had not fallen by {:.0f} % of its largest; "
-        "it "
-        "stayed at what was asked",
+        "no peak was reached: up to the strain of {:.4g} the stress had not fallen by {:.0f} % of its "
+        "largest while the strain grew; it stayed at what was asked",
         peak.strain_at_end, 100 * (1 - fallen_to));
   return fmt::format(
-      "no peak was reached: by the strain of {:.4g} the stress had not fallen by {:.0f} % of its largest, "
-      "and "
-      "had gained {:.2g} % in the last fifth of the strain ({:.0f} % at most is a plateau)",
+      "no peak was reached: up to the strain of {:.4g} the stress had not fallen by {:.0f} % of its largest "
+      "while the strain grew, and had gained {:.2g} % in the last fifth of the strain ({:.0f} % at most is a "
+      "plateau)",
       peak.strain_at_end, 100 * (1 - fallen_to), 100 * peak.gained, 100 * gain_of_a_rise);
 }
 

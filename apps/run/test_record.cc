@@ -137,12 +137,12 @@ std::string reason_words(const dem::FailureMeasures &m) {
                  ? "what moves with the platens is a cone on each"
                  : "what moves with the platens is a cone on one and a dome on the other";
     case dem::DecidedBy::one_plane:
-      return fmt::format("{:.0f} % of the broken bonds lie in one plane, {:.0f} degrees from the axis",
+      return fmt::format("{:.0f} % of the lost bonds lie in one plane, {:.0f} degrees from the axis",
                          100 * plane.bonds / m.planes.broken, plane.inclination / degree);
     case dem::DecidedBy::columns:
       return fmt::format("{:.0f} sound pieces reach from platen to platen", m.columns);
     case dem::DecidedBy::steep_planes:
-      return fmt::format("{:.0f} % of the broken bonds lie in planes within 15 degrees of the axis",
+      return fmt::format("{:.0f} % of the lost bonds lie in planes within 15 degrees of the axis",
                          100 * m.planes.steep_share);
     case dem::DecidedBy::few_broken:
       return fmt::format("{:.1f} % of the bonds are broken", 100 * m.broken_share);
