@@ -6,6 +6,7 @@
 
 #include "base/pi.h"
 #include "base/portable.h"
+#include "dem/laws/bond_form.h"
 #include "dem/laws/contact_settings.h"
 
 namespace platen::dem {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "dem/laws/bond_form.h"
 #include "dem/laws/contact_settings.h"
 
 namespace platen::dem {
