@@ -58,7 +58,7 @@ TEST_F(Figures, of_a_test_that_ends_before_its_peak_are_none_but_the_moduli_of_s
   const nlohmann::json s = crush("short", {"Loading/Target strain = 0.0002", "Expect/pattern ="});
   EXPECT_EQ(s["peak_reached"], false);
   EXPECT_EQ(s["ended_by"], "target");
-  expect_reason(s, of_the_peak, "no peak was reached: by the strain of 0.00018");
+  expect_reason(s, of_the_peak, "no peak was reached: up to the strain of 0.00018");
   expect_valid(s, moduli);
   EXPECT_NEAR(s["stress_at_end_pa"].get<double>(), s["largest_stress_pa"].get<double>(),
               0.05 * s["largest_stress_pa"].get<double>());

@@ -39,7 +39,7 @@ TEST(Peak, a_stress_that_rises_to_the_end_has_none) {
   EXPECT_DOUBLE_EQ(peak.largest, 2e8);
   EXPECT_DOUBLE_EQ(peak.strain_at_end, 0.01);
   EXPECT_NEAR(peak.gained, 0.25, 1e-12); // five fifths over four
-  EXPECT_TRUE(contains(words_against(peak), "by the strain of 0.01 "));
+  EXPECT_TRUE(contains(words_against(peak), "up to the strain of 0.01 "));
   EXPECT_TRUE(contains(words_against(peak), "gained 25 %"));
 }
 
