@@ -52,9 +52,11 @@ int read_count(const CLI::Option &option, const std::string &text, int most) {
   int count = 0;
   const char *last = text.data() + text.size();
   const auto [end, failure] = std::from_chars(text.data(), last, count);
-  if (failure != std::errc() || end != last || count < 1 || count > most)
-    fail("--" + option.get_lnames().front() + " = " + text + " is no whole number. Allowed: 1 ... " +
-         std::to_string(most) + ".");
+  const bool whole = failure == std::errc() && end == last;
+  if (!whole || count < 1 || count > most)
+    fail("--" + option.get_lnames().front() + " = " + text +
+         (whole ? " is out of range" : " is no whole number") + ". Allowed: 1 ... " + std::to_string(most) +
+         ".");
   return count;
 }
 

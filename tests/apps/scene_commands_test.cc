@@ -116,8 +116,8 @@ TEST(CommandLine, a_study_is_planned_run_by_number_and_collected) {
   EXPECT_EQ(parse({"rate", "a.prm"}, planning).run, 0);
   EXPECT_TRUE(parse({"rate", "a.prm", "--plan", "--overwrite"}, planning).overwrite);
   const std::pair<std::vector<const char *>, const char *> bad[] = {
-      {{"--run", "0"}, "--run = 0 is no whole number. Allowed: 1 ... "},
-      {{"--run", "-1"}, "--run = -1 is no whole number"},
+      {{"--run", "0"}, "--run = 0 is out of range. Allowed: 1 ... "},
+      {{"--run", "-1"}, "--run = -1 is out of range"},
       {{"--run", "2x"}, "--run = 2x is no whole number"},
       {{"--run", "1-4"}, "--run = 1-4 is no whole number"},
       {{"--run", ""}, "--run =  is no whole number"},
@@ -155,8 +155,8 @@ TEST(CommandLine, bad_lines_are_refused) {
       {{"a.prm", "--thread=3"}, "Did you mean \"--threads\"?"},
       {{"a.prm", "b.prm"}, "\"b.prm\" is one argument too many after a.prm"},
       {{"a.prm", "-s", "A/B", "=", "1"}, "\"=\" is one argument too many"},
-      {{"a.prm", "-t", "0"}, "--threads = 0 is no whole number. Allowed: 1 ... "},
-      {{"a.prm", "-t", "100000"}, "--threads = 100000 is no whole number. Allowed: 1 ... "},
+      {{"a.prm", "-t", "0"}, "--threads = 0 is out of range. Allowed: 1 ... "},
+      {{"a.prm", "-t", "100000"}, "--threads = 100000 is out of range. Allowed: 1 ... "},
       {{"a\x1b[2J.prm"}, "SCENE = a... holds a control character"},
       {{"a.prm", "-o", "x\ny"}, "--output = x... holds a control character or a line end"},
       {{"a.prm", "-t", "two"}, "--threads = two is no whole number"},
