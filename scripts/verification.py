@@ -127,9 +127,11 @@ def check(rows, tests):
     numbers = [row["row"] for row in rows]
     if numbers != list(range(1, len(rows) + 1)):
         faults.append(f"{ROWS.name}: rows are not numbered from 1 on: {numbers}")
-    listed = [int(n) for n in re.findall(r"^\| (\d+) \|", TABLE.read_text(), re.M)] if TABLE.exists() else []
-    if listed != numbers:
-        faults.append(f"{TABLE.name}: has rows {listed}; write it anew")
+    lines = re.findall(r"^\| (\d+) \|.*", TABLE.read_text(), re.M) if TABLE.exists() else []
+    if [int(n) for n in lines] != numbers:
+        faults.append(f"{TABLE.name}: has rows {lines}; write it anew")
+    faults += [f"{TABLE.name}: row {row['row']} does not name its tests; write it anew" for row in rows
+               if TABLE.exists() and f"| {names_of(row)} |" not in TABLE.read_text()]
     return faults
 
 
@@ -182,6 +184,12 @@ def read_noted(group):
     return done
 
 
+def names_of(row):
+    """The row's tests as the table has them, long forms in italics."""
+    named = [f"`{p}`" for p in row["tests"]] + [f"*`{p}`*" for p in row.get("long", [])]
+    return "<br>".join(named).replace("|", "\\|").replace("\\.", ".") or "-"
+
+
 def line(row, tests, found):
     """The row's line of the table, and whether it holds."""
     own = [t.name for t in matching(patterns_of(row), tests)]
@@ -196,10 +204,8 @@ def line(row, tests, found):
         verdict = "FAILS: " + ", ".join(f"`{name}`" for name in failed)
     else:
         verdict = "; ".join((["pass"] if ran else []) + notes)
-    named = [f"`{p}`" for p in row["tests"]] + [f"*`{p}`*" for p in row.get("long", [])]
-    patterns = "<br>".join(named).replace("|", "\\|").replace("\\.", ".") or "-"
     date = min((test["date"] for test in ran.values()), default="-")
-    cells = [str(row["row"]), row["hazard"], row["measured"], row["threshold"], patterns,
+    cells = [str(row["row"]), row["hazard"], row["measured"], row["threshold"], names_of(row),
              "<br>".join(figures) or "-", date, verdict]
     return "| " + " | ".join(cells) + " |", not failed
 

@@ -18,13 +18,15 @@ std::vector<std::string> texts_of(const std::vector<Item> &items, const Text &te
   return all;
 }
 
-// A table of parameters with a name for each column.
+// A table of parameters with a name for each column, which may begin with its own number, "(2) strength".
 std::string matrix_text(const std::vector<ParameterFacts> &rows, const std::vector<std::string> &columns,
                         const Eigen::MatrixXd &numbers) {
   std::string text = fmt::format("  {:<30}", ""), names;
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    text += fmt::format(" {:>7}", fmt::format("({})", k + 1));
-    names += fmt::format("    ({}) {}\n", k + 1, columns[k]);
+    const bool numbered = columns[k].front() == '(';
+    const std::string name = numbered ? columns[k] : fmt::format("({}) {}", k + 1, columns[k]);
+    text += fmt::format(" {:>7}", name.substr(0, name.find(' ')));
+    names += "    " + name + "\n";
   }
   text += "\n";
   for (std::size_t r = 0; r < rows.size(); ++r) {

@@ -244,7 +244,7 @@ TEST_F(PlannedStudy, refuses_a_number_that_is_not_in_it) {
   EXPECT_FALSE(fs::exists(folder_ / "a"));
   ask(0, {"--plan"});
   ask(2, {"--run", "5"}, "--run = 5 is not in the plan. Allowed: 1 ... 4.");
-  ask(2, {"--run", "0"}, "--run = 0 is no whole number. Allowed: 1 ...");
+  ask(2, {"--run", "0"}, "--run = 0 is out of range. Allowed: 1 ...");
   EXPECT_TRUE(fs::is_empty(folder_ / "a/runs"));
 }
 
