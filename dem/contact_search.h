@@ -36,9 +36,8 @@ public:
   double rest_distance(IndexPair pair, const Particles &particles) const;
 
   std::vector<IndexPair> close_pairs() const { return close_.rows(); } // sorted
-  std::size_t close_count() const { return close_.size(); }
-  bool made() const { return wide_valid_ && close_valid_; }          // by an update()
-  std::vector<IndexPair> wide_pairs() const { return wide_.rows(); } // sorted
+  bool made() const { return wide_valid_ && close_valid_; }            // by an update()
+  std::vector<IndexPair> wide_pairs() const { return wide_.rows(); }   // sorted
   std::size_t bytes() const { return wide_.bytes() + close_.bytes() + rest_.bytes(); }
   // Bytes moved to insert pairs one at a time.
   std::size_t bytes_moved() const { return wide_.bytes_moved() + close_.bytes_moved() + rest_.bytes_moved(); }
