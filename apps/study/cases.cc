@@ -119,18 +119,23 @@ double number_of(const std::string &text, const std::string &unit) {
 
 StudyPlan plan_vary(const Scene &scene) {
   StudyPlan plan{StudyKind::vary, {}, {StudyCase{}}};
+  const auto case_of = [&](const std::string &path, const std::string &value) {
+    const std::string name = as_name(last_name(path) + " " + value);
+    const double number = number_of(value, scene.parameters->at(path).unit);
+    StudyCase with{name, {path + " = " + value}, {number}, {std::isnan(number) ? value : ""}};
+    if (path != "Loading/Confining pressure") with.envelope = name;
+    return with;
+  };
   for (const Varied &one : study_of(scene).vary) {
-    if (one.path.empty()) continue;
-    const std::string &unit = scene.parameters->at(one.path).unit;
-    plan.varied.push_back(column_of(one.path, unit));
+    if (one.paths.empty()) continue;
+    for (const std::string &path : one.paths)
+      plan.varied.push_back(column_of(path, scene.parameters->at(path).unit));
     std::vector<StudyCase> all;
     for (const StudyCase &before : plan.cases)
-      for (const std::string &value : one.values) {
-        const std::string name = as_name(last_name(one.path) + " " + value);
-        const double number = number_of(value, unit);
-        StudyCase with{name, {one.path + " = " + value}, {number}, {std::isnan(number) ? value : ""}};
-        if (one.path != "Loading/Confining pressure") with.envelope = name;
-        all.push_back(joined(before, with));
+      for (const std::vector<std::string> &values : one.values) {
+        all.push_back(before);
+        for (std::size_t k = 0; k < values.size(); ++k)
+          all.back() = joined(std::move(all.back()), case_of(one.paths[k], values[k]));
       }
     plan.cases = std::move(all);
   }

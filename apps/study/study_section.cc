@@ -1,7 +1,11 @@
 #include "apps/study/study_section.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <sstream>
 
 #include "apps/scene/members.h"
 #include "apps/scene/parameters.h"
@@ -38,18 +42,33 @@ std::vector<Quality> read_qualities(const std::string &text) {
       text, [&](const std::string &item) { return quality_words()[read_word(item, words)].kind; });
 }
 
-// "Platens/Friction static: 0, 0.1, 0.3"; "" varies nothing.
+// "20 mm & 60 mm": values of entries that go together.
+std::vector<std::string> together(const std::string &text) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, '&');)
+    parts.push_back(tidy(part));
+  return parts;
+}
+
+// "Platens/Friction static: 0, 0.1, 0.3", "Specimen/Height & Platens/Span: 20 mm & 60 mm, 40 mm & 120 mm"; ""
+// varies nothing.
 Varied read_varied(const std::string &text) {
   if (text.empty()) return {};
   const std::size_t colon = text.find(':');
-  const std::string path = tidy(text.substr(0, colon));
-  if (colon == std::string::npos || path.find('/') == std::string::npos)
-    throw ValueError("varies no entry: \"Section/Key: value, value\" does");
-  if (path.rfind("Study/", 0) == 0 || path == "Scene/Seed")
-    throw ValueError("varies " + path + ", which is of the study itself");
-  Varied varied{path, read_items<std::string>(tidy(text.substr(colon + 1)),
-                                              [](const std::string &item) { return item; })};
+  Varied varied{together(text.substr(0, colon)), {}};
+  for (const std::string &path : varied.paths) {
+    if (colon == std::string::npos || path.find('/') == std::string::npos)
+      throw ValueError("varies no entry: \"Section/Key: value, value\" does");
+    if (path.rfind("Study/", 0) == 0 || path == "Scene/Seed")
+      throw ValueError("varies " + path + ", which is of the study itself");
+  }
+  varied.values = read_items<std::vector<std::string>>(tidy(text.substr(colon + 1)), together);
   if (varied.values.empty()) throw ValueError("has no value");
+  for (const std::vector<std::string> &values : varied.values)
+    if (values.size() != varied.paths.size())
+      throw ValueError("holds a case of " + std::to_string(values.size()) + " values for " +
+                       std::to_string(varied.paths.size()) + " entries");
   return varied;
 }
 
@@ -147,9 +166,11 @@ void declare_study(Parameters &parameters, Scene &scene) {
                 "Studies of rate and accuracy, in place of Loading/Axial rate.");
   declare_accuracy_lists(section, study);
   for (std::size_t k = 0; k < study.vary.size(); ++k)
-    section.value("Vary " + std::to_string(k + 1), study.vary[k], "",
-                  "\"Section/Key: value, value\"; no value may hold a comma", read_varied,
-                  "Study vary: an entry and its values; each value of one with each of the others.");
+    section.value(
+        "Vary " + std::to_string(k + 1), study.vary[k], "",
+        "\"Section/Key: value, value\", or entries that go together, \"Section/Key & Section/Key: value & "
+        "value, value & value\"; no value may hold a comma",
+        read_varied, "Study vary: entries and their values; each case of one with each of the others.");
   declare_target(parameters, study.target);
 }
 
@@ -166,7 +187,7 @@ bool study_gives(const Scene &scene, const Parameters &parameters, const std::st
   const bool targets = std::any_of(parameters.entries().begin(), parameters.entries().end(), set);
   if (path == "Platens/Surface") return true;
   for (const Varied &one : study.vary)
-    if (one.path == path) return true;
+    if (std::find(one.paths.begin(), one.paths.end(), path) != one.paths.end()) return true;
   if (path == "Loading/Axial rate")
     return !study.axial_rates.empty() || !study.wave_transits.empty() || !study.qualities.empty() || targets;
   if (path == "Loading/Confining pressure") return !study.pressures.empty();
@@ -210,18 +231,24 @@ void check_study(const SceneCheck &check) {
   once("Study/Sleeve mesh list", study.sleeve_elements);
   once("Study/Sleeve mass scaling list", study.sleeve_mass_scalings);
   words_once("Study/Effects list", study.changes);
+  std::set<std::string> varied;
   for (std::size_t k = 0; k < study.vary.size(); ++k) {
-    const std::string entry = "Study/Vary " + std::to_string(k + 1), &path = study.vary[k].path;
-    words_once(entry, study.vary[k].values);
-    if (!path.empty() && check.parameters().find(path) == nullptr) {
-      std::vector<std::string> known;
-      for (const Entry &one : check.parameters().entries())
-        known.push_back(one.path);
-      check.refuse(entry, "names " + path + ", which is no entry of this scene." + did_you_mean(path, known));
-    }
-    for (std::size_t j = 0; j < k; ++j)
-      if (!path.empty() && study.vary[j].path == path)
+    const std::string entry = "Study/Vary " + std::to_string(k + 1);
+    std::vector<std::string> cases;
+    for (const std::vector<std::string> &values : study.vary[k].values)
+      cases.push_back(fmt::format("{}", fmt::join(values, " & ")));
+    words_once(entry, std::move(cases));
+    for (const std::string &path : study.vary[k].paths) {
+      if (check.parameters().find(path) == nullptr) {
+        std::vector<std::string> known;
+        for (const Entry &one : check.parameters().entries())
+          known.push_back(one.path);
+        check.refuse(entry,
+                     "names " + path + ", which is no entry of this scene." + did_you_mean(path, known));
+      }
+      if (!varied.insert(path).second)
         check.refuse(entry, "varies " + path + " a second time. Allowed: each entry once.");
+    }
   }
   for (const bool relative : {true, false}) {
     std::vector<double> gaps;

@@ -32,9 +32,9 @@ struct DomainSize {              // of a cylinder
   double height = 0, radius = 0; // m
 };
 
-struct Varied {     // study of any entry
-  std::string path; // "Platens/Friction static"; "" where nothing is varied
-  std::vector<std::string> values;
+struct Varied {                                 // study of any entries
+  std::vector<std::string> paths;               // "Platens/Friction static"; none where nothing is varied
+  std::vector<std::vector<std::string>> values; // of each case, one for each path
 };
 
 struct Study {                        // platen-study; a list that is empty leaves the scene's own value

@@ -66,6 +66,20 @@ TEST(StudyVary, each_value_of_an_entry_runs_with_each_of_the_others) {
   EXPECT_EQ(plan.cases[1].labels, (std::vector<double>{0.2, 0.02}));
 }
 
+TEST(StudyVary, entries_that_go_together_are_varied_together_and_with_the_others) {
+  const StudyPlan plan =
+      vary({"Study/Vary 1 = Specimen/Height & Loading/Axial rate: 9 mm & 5 mm/s, 2 cm & 0.01",
+            "Study/Vary 2 = Effects/Rotation: on, off"});
+  EXPECT_EQ(plan.varied, (Words{"height_m", "axial_rate_m_s", "rotation"}));
+  ASSERT_EQ(plan.cases.size(), 4u);
+  EXPECT_EQ(plan.cases[3].name, "height_2_cm_axial_rate_0.01_rotation_off");
+  EXPECT_EQ(plan.cases[3].overrides,
+            (Words{"Specimen/Height = 2 cm", "Loading/Axial rate = 0.01", "Effects/Rotation = off"}));
+  EXPECT_EQ(plan.cases[0].labels[0], 0.009);
+  EXPECT_EQ(plan.cases[0].labels[1], 0.005);
+  EXPECT_EQ(plan.cases[3].words, (Words{"", "", "off"}));
+}
+
 TEST(StudyVary, a_word_has_its_name_and_no_number) {
   const StudyPlan plan = vary({"Study/Vary 1 = Effects/Rotation: on, off"});
   ASSERT_EQ(plan.cases.size(), 2u);
