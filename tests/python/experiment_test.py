@@ -140,6 +140,7 @@ class Advancing(InFolder):
 
     def test_control_c_interrupts_and_can_be_gone_on_from(self):
         experiment = self.experiment()
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # whatever started the tests may have it ignored
         experiment.on_sample = lambda row: signal.raise_signal(signal.SIGINT)
         with self.assertRaises(KeyboardInterrupt):
             experiment.run()

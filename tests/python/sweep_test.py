@@ -54,6 +54,7 @@ class Runs(OfSweeps):
     def test_control_c_stops_all_runs_and_a_resumed_sweep_is_that_of_one_call(self):
         vary, values = {FRICTION: [0.2, 0.3]}, dict(SMALL, **{"Specimen/Sphere radius": "0.85 mm", "Checkpoint/Every": 50})
         stopped = self.sweep(vary, packings=1, set=values)
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # whatever started the tests may have it ignored
 
         def interrupt():
             while not list(self.folder.glob("study/runs/*/history.csv")):
