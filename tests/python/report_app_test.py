@@ -188,7 +188,12 @@ class Words(Folder):
         self.assertEqual(words.verdict([self.results()]), ["Strength 30 MPa, valid."])
         self.assertEqual(words.verdict([self.results(expectations=[met])]),
                          ["Strength 30 MPa, valid. As expected: 1 figure that the scene expects, all met."])
-        self.assertIn("Not as expected: 1 of 2 figures", words.verdict([self.results(expectations=[met, missed])])[0])
+        self.assertIn("Not as expected: 1 of 2 figures that the scene expects not met (strength).",
+                      words.verdict([self.results(expectations=[met, missed])])[0])
+        self.assertEqual(words.verdict([self.results(status="stopped", signs_of_haste=["36 wave crossings"])]),
+                         ["The run has not ended: its figures are of the part that ran. Not quasi-static: 36 wave crossings. Strength 30 MPa, valid."])
+        self.assertEqual(words.verdict([self.results(targets=[{}, {}])])[0], "All targets met on unseen packings: 2.")
+        self.assertEqual(words.verdict([self.results(targets=[{}, {}], targets_missed=["E"])])[0], "Not met: 1 target.")
         self.assertEqual(words.verdict([self.results(strength_pa=None, validity={"strength_pa": ["no peak was reached"]})]),
                          ["No strength: no peak was reached."])
         self.assertEqual(words.verdict([self.results(validity={"strength_pa": ["too fast"]})]), ["Strength 30 MPa, not valid: too fast."])
@@ -202,23 +207,46 @@ class Words(Folder):
                          ["status", "quasi-static", "Young's modulus, gauge", "damage of the middle", "strength"])
         self.assertEqual(table.rows[2][1:], ["... 20 GPa", "25.72 GPa", "not met"])
         self.assertEqual(table.rows[3][3], "not checked: no peak")
+        strain = {"entry": "Expect/strain_at_peak_platen", "range": "0.0021 ... 3e-3", "value": 0.00243, "met": True}
+        self.assertEqual(words.table_of_expectations([self.results(expectations=[strain])]).rows[0][1:3], ["2.1 mm/m ... 3 mm/m", "2.43 mm/m"])
 
     def test_figures_have_four_digits_and_ratios_only_where_they_mean_something(self):
         runs = [report.TestRun(summary(self.folder / name, strength_pa=strength, dead_zone_top={"base_ratio": r}, dead_zone_bottom={"base_ratio": 0.9},
-                                       end_damage_top=0.1, end_damage_bottom=0.2, peak_reached=peak))
+                                       cone_top={"half_angle_deg": 40}, end_damage_top=0.1, end_damage_bottom=0.2, peak_reached=peak))
                 for name, strength, r, peak in (("dry", 41.866e6, 0.8, True), ("wet", 20.933e6, 1.0, False))]
         table = {row[0]: row[1:] for row in words.table_of_figures(runs).rows}
         self.assertEqual(table["strength (MPa)"], ["41.87", "20.93, no peak reached", "2"])
         self.assertEqual(table["base of the worse end's cone, r0"], ["0.8", "0.9", "-"])
         self.assertEqual(table["damage of the worse end"], ["0.2", "0.2", "1"])
-        self.assertEqual(table["Poisson's ratio"], ["-", "-", "-"])
-        self.assertNotIn("tensile strength (MPa)", table)
+        self.assertFalse({"Poisson's ratio", "tensile strength (MPa)"} & {*table})
+        damaged = {"end_damage_top": 0.1, "dead_zone_top": {"base_ratio": 0.8}}
+        for app, names in (("platen-compress", ["strength (MPa)", "damage of the worse end"]), ("platen-brazilian", ["strength (MPa)"])):
+            made = words.table_of_figures([self.results(app=app, **damaged)])
+            self.assertEqual(([row[0] for row in made.rows], made.note != ""), (names, app == "platen-compress"))  # no cone: no r0
 
     def test_only_figures_with_a_reason_against_them_have_a_row_of_validity(self):
         valid = report.TestRun(summary(self.folder / "a"))
         self.assertEqual(words.table_of_validity([valid]).rows, [])
         doubtful = report.TestRun(summary(self.folder / "b", validity={"strength_pa": "valid", "poisson_ratio": ["too few", "too fast"]}))
         self.assertEqual(words.table_of_validity([valid, doubtful]).rows, [["Poisson's ratio", "valid", "too few; too fast"]])
+        why = ["closure is no strain: opening_at_peak_m"]
+        alike = report.TestRun(summary(self.folder / "c", validity={"strain_at_peak_platen": why, "barrel_at_peak": why}))
+        self.assertEqual(words.table_of_validity([alike]).rows,
+                         [["strain at peak, platens, barrel at peak", "closure is no strain: opening at peak"]])
+
+    def test_what_was_tested_has_sizes_platens_and_how_it_ended(self):
+        entries = {"Specimen": {"Shape": "disc", "Radius": "25 mm", "Height": "20 mm", "Packing": "file"},
+                   "Platens": {"Kind": "deformable", "Friction static": "0.3", "Pad thickness": "2 mm", "Thickness": "0"}}
+        text = "".join(f"subsection {name}\n" + "".join(f"  set {key} = {value}\n" for key, value in of.items()) + "end\n"
+                       for name, of in entries.items())
+        disc = summary(self.folder / "disc", app="platen-brazilian", test="compression", ended_by="stop at residual")
+        (disc / "scene.prm").write_text(text)
+        facts = dict(words.table_of_facts([report.TestRun(disc)]).rows)
+        self.assertEqual((facts["specimen"], facts["platens"]), ("disc, radius 25 mm, thickness 20 mm", "deformable, pad thickness 2 mm"))
+        self.assertEqual(facts["loading"], "splitting, ended: the stress fell to the residual")
+        bonds = summary(self.folder / "bonds", app="platen-bonds")
+        (bonds / "scene.prm").write_text(text)
+        self.assertFalse({"specimen", "packing"} & {*dict(words.table_of_facts([report.TestRun(bonds)]).rows)})
 
     def test_a_title_is_none_where_an_entry_that_changes_the_test_was_overridden(self):
         over = [{"entry": "Bond/Modulus", "value": "1 GPa", "in_scene_file": "2 GPa"}, {"entry": "Output/Every", "value": "1", "in_scene_file": ""}]
@@ -231,7 +259,7 @@ class Words(Folder):
     def test_values_of_other_kinds_than_numbers_are_no_figures(self):
         for value in ("12", True, [1], {"a": 1}, None, math.inf):
             table = words.table_of_figures([report.TestRun(summary(self.folder / "odd", poisson_ratio=value))])
-            self.assertIn(["Poisson's ratio", "-"], table.rows, value)
+            self.assertNotIn("Poisson's ratio", [row[0] for row in table.rows], value)
 
     def test_texts_of_the_scene_are_numbers_with_their_units(self):
         for text, value in (("25 mm", 0.025), ("2400 kg/m3", 2400), ("30 degree", math.pi / 6), ("5 N/mm2", 5e6), ("0.57", 0.57), ("60 mm/min", 1e-3),

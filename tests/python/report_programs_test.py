@@ -109,12 +109,14 @@ class Bonds(OfPrograms):
 
 class Bars(OfPrograms):
     def test_a_bar_stands_beside_strength_of_materials(self):
-        info = {"app": "platen-bar", "tension": {"static_displacement_m": 1.1e-5, "static_by_hand": 1e-5}, "bulk": {"poisson_ratio": 0.17}}
+        info = {"app": "platen-bar", "tension": {"static_displacement_m": 1.1e-5, "static_by_hand": 1e-5, "static_error_effective": -0.02}, "bulk": {"poisson_ratio": 0.17}}
         made = self.page(info, **{"history.csv": "time_s,load,end_x_m,end_z_m,end_twist_rad\n1,tension,0,1e-5,0\n1.001,tension,0,-1e-5,0\n"
                                                  "2,impact,0,0,0\n"})
         self.assertEqual(made.sections[0].tables[0].rows, [["stretch under tension", "um", "11", "10", "1.1"],
                                                            ["Poisson's ratio, in bulk", "", "0.17", "-", "-"]])
-        self.assertAlmostEqual(self.axes(made, "bar")[0].patches[0].get_width(), 10)
+        axes = self.axes(made, "bar")[0]
+        numpy.testing.assert_allclose([bar.get_width() for bar in axes.patches], [10, -2])
+        self.assertEqual([text.get_text() for text in axes.texts], ["+10.00 %", "-2.00 %"])
         motion, static = self.axes(made, "swings")[0].lines
         numpy.testing.assert_allclose(motion.get_xydata(), [[0, 10], [1, -10]], atol=1e-12)
         self.assertAlmostEqual(static.get_ydata()[0], 10)

@@ -141,12 +141,15 @@ class Cases(OfStudies):
         marks = [of.get_paths()[0].vertices.tolist() for of in symbols.values()]
         self.assertEqual(sorted(symbols), ["laboratory, free ends: RILEM", "laboratory, steel: ASTM C42"])
         self.assertNotEqual(*marks)
+        self.assertEqual(symbols["laboratory, steel: ASTM C42"].get_offsets()[0][0], CORES["slenderness"])
 
     def test_one_packing_is_drawn_as_points_and_several_as_a_line_with_bars(self):
         several = parameters("packing", case("a", 40e6, gap_over_radius=0.02), case("b", 50e6, gap_over_radius=0.1))
         one = parameters("packing", case("a", 40e6, 1, gap_over_radius=0.02), case("b", 50e6, 1, gap_over_radius=0.1))
         for study, style in ((several, "-"), (one, "None")):
-            axes = house.figure_of(self.pictures(self.page(study))["study_packing"]).axes[0]
+            made = self.page(study)
+            self.assertEqual(made.leads, ["Strength 40.0 ... 50.0 MPa over 2 cases."])
+            axes = house.figure_of(self.pictures(made)["study_packing"]).axes[0]
             self.assertEqual(axes.lines[0].get_linestyle(), style)
             ends = [path.vertices[:, 1].tolist() for path in axes.collections[0].get_paths()]
             self.assertEqual(ends, [[38, 42], [48, 52]] if style == "-" else [])
@@ -314,9 +317,9 @@ class Target(OfStudies):
         made = self.page(target())
         table = made.sections[0].tables[0]
         self.assertEqual((table.header[2], table.rows[1]), ("strength (MPa)", ["18", "150", "42", "1.9", "1.5", "1.1", "0.1", "0.2"]))
-        self.assertEqual(made.remarks[0], "strength of slow loading: 42 MPa +- 1.9 % with 90 % confidence; 2 % were required: reached")
-        self.assertEqual(made.remarks[1], "150 s of one core; one slow speed would have taken 400 s (180 wave crossings, 6 packings)")
-        self.assertEqual(made.remarks[3], "1 of 18 runs failed: no mean contains them")
+        self.assertEqual(made.leads[0], "strength of slow loading: 42 MPa +- 1.9 % with 90 % confidence; 2 % were required: reached")
+        self.assertEqual(made.remarks[0], "150 s of one core; one slow speed would have taken 400 s (180 wave crossings, 6 packings)")
+        self.assertEqual(made.remarks[2], "1 of 18 runs failed: no mean contains them")
 
     def test_the_interval_is_of_the_logarithm_and_the_order_about_the_last_estimate(self):
         pictures = self.pictures(self.page(target()))
@@ -333,7 +336,7 @@ class Target(OfStudies):
         del study["costs"]
         self.refused(study, "no costs")
         made = self.page(target(looks=[], verdict="none"))
-        self.assertEqual(made.remarks[0], "too few runs gave the figure: there is no interval")
+        self.assertEqual(made.leads[0], "too few runs gave the figure: there is no interval")
 
 
 if __name__ == "__main__":

@@ -124,4 +124,6 @@ def page_of_runs(runs, measured=None):
         Section("The specimen", specimen.pictures_of_specimen(run)), Section("Cracks", cracks.pictures_of_cracks(run)),
         Section("Platens and ends", platens.pictures_of_ends(run)), Section("The sleeve", specimen.pictures_of_sleeve(run)),
         Section("Computing time", curves.pictures_of_costs(run))]
-    return Page(words.true_title(run), leads, head, sections, remarks)
+    if several:  # all after the comparison is of the first run
+        sections[1:] = [section and section._replace(heading=f"{section.heading}: {run.name}") for section in sections[1:]]
+    return Page(" and ".join(map(words.true_title, runs)), leads, head, sections, remarks)

@@ -21,10 +21,10 @@ class Table(NamedTuple):
     note: str = ""
 
     def text(self, width=100):
-        """In columns, one line a row; texts of the last column that are too long for `width` are broken."""
+        """In columns, one line a row; long texts are broken where the table is wider than `width`."""
         lines = [[str(cell) for cell in line] for line in (self.header, *self.rows)]
         widths = [max(map(len, column)) for column in zip(*lines)]
-        wide = [k for k in range(1, len(widths)) if sum(widths) + 2 * len(widths) > width and widths[k] > 30]
+        wide = [k for k in range(len(widths)) if sum(widths) + 2 * len(widths) > width and widths[k] > 30]
         for k in wide:  # these share what the others leave, and their texts are broken
             rest = sum(w for j, w in enumerate(widths) if j not in wide) + 2 * len(widths)
             widths[k] = min(widths[k], max(24, (width - rest) // len(wide)))

@@ -142,9 +142,9 @@ def _bonds(folder, summary, remarks):
     keys = ("stiffness_ratio", "stiffness", "break_load")
     rows = [[str(k + 1), *(digits(value) for value in (number_in(run, "modulus_pa") * GPA, *(number_in(run, key) for key in keys)))]
             for k, run in enumerate(summary.get("runs", []))]
-    header = ["run", "modulus (GPa)", "stiffness ratio", "stiffness", "break load"]
-    note = "Stiffness and load in SI units; moments over rotations where the bond is bent or twisted."
-    return [Section("Load and displacement", pictures, [Table(header, rows, "", note)])]
+    units = ("N m/rad", "N m") if load == "moment_nm" else ("N/m", "N")
+    header = ["run", "modulus (GPa)", "stiffness ratio", f"stiffness ({units[0]})", f"break load ({units[1]})"]
+    return [Section("Load and displacement", pictures, [Table(header, rows)])]
 
 
 # ---- bars
@@ -162,11 +162,16 @@ def _bar(folder, summary, remarks):
     found = [(name, unit, number_in(summary, key) * factor, number_in(summary, theory) * factor or math.nan)
              for name, key, theory, factor, unit in BAR if math.isfinite(number_in(summary, key))]
     rows = [[name, unit, *map(digits, (value, theory, value / theory))] for name, unit, value, theory in found]
-    both = [(name, value / theory) for name, _, value, theory in found if math.isfinite(theory)]
-    pictures = [chart("bar", "Measured value over that of strength of materials for the same bar, and by how much they differ.",
-                      bars, names=[name for name, _ in both], values=[100 * (ratio - 1) for _, ratio in both],
-                      texts=[f"{ratio:.4g}" for _, ratio in both], title="Measured against strength of materials (%)", mark=0,
-                      heights=0.32 * len(both) + 0.2, margin=1.9)] if both else []
+    off = [(name, value / theory - 1) for name, _, value, theory in found if math.isfinite(theory)]
+    for name, key, *_ in BAR:  # what a scene judges: the section that the bonds really fill
+        load, kind = key.split("/")[0], "dynamic" if "frequency" in key else "static"
+        error = number_in(summary, f"{load}/{kind}_error_effective")
+        off += [(f"{name}, effective section", error)] if math.isfinite(error) else []
+    pictures = [chart("bar", "By how much the measured values differ from strength of materials, for the bounding section of the bar and for the "
+                      "effective one, which has the radius of gyration of its bonds.",
+                      bars, names=[name for name, _ in off], values=[100 * error for _, error in off],
+                      texts=[f"{100 * error:+.2f} %" for _, error in off], title="Measured against strength of materials (%)", mark=0,
+                      heights=0.32 * len(off) + 0.2, margin=2.9)] if off else []
     if (folder / "history.csv").exists():
         history = read_table(folder / "history.csv")
         history["load"] = numpy.array(history["load"] if "load" in history else [], str)

@@ -168,7 +168,7 @@ def _laboratory(axes, measured, x, key, beside):
         elif x == "slenderness" and 0.95 * min(beside) <= one["slenderness"] <= 1.05 * max(beside):
             series.setdefault((f"laboratory, {one['platens']}: {source}", BLACK), []).append((one["slenderness"], one))
     for n, ((label, colour), points) in enumerate(series.items()):
-        place = numpy.array([at for at, _ in points]) + 0.015 * (n + 1) * (high - low)
+        place = numpy.array([at for at, _ in points]) + (0.006 * (n + 1) * (high - low) if x == "friction_static" else 0)
         axes.scatter(place, [one["mean"] for _, one in points], marker=MARKS[3 + n % 7], color=colour, s=28, label=label, zorder=3)
         scatter_bars(axes, place, [one["low"] for _, one in points], [one["high"] for _, one in points], colour)
 
@@ -212,7 +212,7 @@ def _pictures_of_platens(studies, number="", which=""):
         draws = [partial(over, studies=studies, x=x, key="strength_pa")]
         if any(one["effect"] == effect and not one.get("reason") for study in studies for one in study.ratios):
             draws.append(partial(over, studies=studies, x=x, key=effect, named=False))
-            caption += " Colours as above. Bars of a laboratory: its range; its symbols are drawn a little to the right of their value."
+            caption += " Colours as above. Bars of a laboratory: its range" + ("; its symbols stand a little to the right of .57." if x == "friction_static" else ".")
         pictures.append(chart(name + number, f"{caption} {BARS}" + (f" Here: {which}." if which else ""), *draws, heights=3.0, shared=True))
     return pictures
 
@@ -296,7 +296,9 @@ def _verdicts(study):
                 remarks.append(f"{case.name}: no {FIGURES[key][0].split(' (')[0].lower()}{', ' if why else ''}{why}; a gap in the picture")
     outside = sum(one["side"] != "" for one in judged)
     lead = f"Laboratory: {outside or 'none'} of {len(judged)} ratios {'are' if outside > 1 else 'is'} outside the measured range."
-    return [lead] if judged else [], remarks + _failed(study.said)
+    strengths = [case.figures["strength_pa"].mean for case in study.cases.values() if math.isfinite(case.figures["strength_pa"].mean)]
+    range_of = [f"Strength {min(strengths):.1f} ... {max(strengths):.1f} MPa over {len(strengths)} cases."] if len(strengths) > 1 else []
+    return range_of + ([lead] if judged else []), remarks + _failed(study.said)
 
 
 def _section_of_failure(study, remarks):
@@ -382,4 +384,7 @@ def page_of(folder, *others):
             return _page_of_cases(studies)
         section, remarks = (section_of_accuracy if kind == "accuracy" else section_of_target)(study.said)
         stresses = Section("Stress and strain", _pictures_of_stress(studies, remarks))
-        return Page(true_title(study), *head(studies), [section, stresses], remarks + _failed(study.said))
+        leads, tables = head(studies)
+        if kind == "target":  # what was ordered comes first
+            leads, remarks = remarks[:1] + leads, remarks[1:]
+        return Page(true_title(study), leads, tables, [section, stresses], remarks + _failed(study.said))

@@ -1,5 +1,7 @@
 """What a page says before its pictures: a verdict in a sentence, what was tested, figures with what counts against them."""
 import math
+import re
+from pathlib import Path
 from typing import NamedTuple
 
 from .house import digits
@@ -16,7 +18,7 @@ ALWAYS = {
     "Young's modulus, platens": ("GPa", "youngs_modulus_platen_pa"), "Poisson's ratio": ("", "poisson_ratio"),
     "bonds broken in tension": ("", "broken_tension"), "bonds broken in shear": ("", "broken_shear")}
 GIVEN = {
-    "stress at the end": ("MPa", "stress_at_end_pa"), "deviator at the peak": ("MPa", "deviator_strength_pa"),
+    "deviator at the peak": ("MPa", "deviator_strength_pa"),
     "bulk modulus": ("GPa", "bulk_modulus_pa"), "constrained modulus": ("GPa", "constrained_modulus_pa"),
     "tensile strength": ("MPa", "tensile_strength_pa"), "flexural modulus": ("GPa", "flexural_modulus_pa"),
     "load at failure": ("kN", "failure_load_n"), "opening at peak": ("um", "opening_at_peak_m"),
@@ -25,7 +27,7 @@ GIVEN = {
     "fracture energy of the bonds": ("J/m2", "bond_fracture_energy_j_m2"), "damage of the worse end": ("", "end_damage_top", "end_damage_bottom"),
     "damage of the middle": ("", "middle_damage")}
 ALONE = {
-    "spread of the ends": ("", "end_spread"), "barrel at peak": ("", "barrel_at_peak"),
+    "stress at the end": ("MPa", "stress_at_end_pa"), "spread of the ends": ("", "end_spread"), "barrel at peak": ("", "barrel_at_peak"),
     "base of the worse end's cone, r0": ("", "dead_zone_top/base_ratio", "dead_zone_bottom/base_ratio"),
     "half-angle of the top cone": ("degrees", "cone_top/half_angle_deg"),
     "half-angle of the bottom cone": ("degrees", "cone_bottom/half_angle_deg"),
@@ -34,11 +36,21 @@ ALONE = {
     "b-value before the peak": ("", "acoustic/b_before"), "b-value after the peak": ("", "acoustic/b_after")}
 FIGURES = {**ALWAYS, **GIVEN, **ALONE}
 LEAST = "base of the worse end's cone, r0"
+# Of cylinders and boxes that are compressed: a disc and a bent bar have no such ends. Their note.
+OF_ENDS = ("damage of the worse end", "damage of the middle", "spread of the ends", "barrel at peak", LEAST)
+ENDS = ("Damage: share of the broken bonds, of an end and of the middle; spread: opening of the skin near the ends over its largest; r0: radius "
+        "of a cone's base over that of the specimen; all three where the stress has fallen to 0.8 of its peak. Barrel: opening of the skin at "
+        "the ends over that of the middle, at the peak.")
 ENDINGS = (("_kg_m3", "kg/m3"), ("_j_m2", "J/m2"), ("_pa", "Pa"), ("_m", "m"), ("_n", "N"), ("_s", "s"), ("_deg", "degrees"))
 # Sections whose entries change nothing of the specimen and its test.
 _ASIDE = ("Output/", "Checkpoint/", "Expect/", "Scene/Title")
 # Main parameters of a bond law, as far as a scene has them.
-_BOND = ("Modulus", "Stiffness ratio", "Tensile strength", "Shear strength", "Friction angle", "Moment contribution", "Fracture energy")
+_BOND = ("Modulus", "Stiffness ratio", "Tensile strength", "Shear strength", "Friction angle", "Moment contribution", "Fracture energy",
+         "Compression limits", "Compression slopes")
+# What tells deformable platens apart.
+_PLATENS = ("Thickness", "Young modulus", "Pad thickness", "Pad modulus", "Layer materials", "Mesh file", "Top/Mesh file")
+# How a test ended, as a laboratory says it.
+_ENDED = {"stop at residual": "the stress fell to the residual", "target": "the target was reached"}
 FEW = 5  # packings: of fewer a standard deviation says little, their range is given
 
 
@@ -115,32 +127,47 @@ def _name(results, all_results):
     return f"{results.name}: " if len(all_results) > 1 else ""
 
 
+def _of_the_run(results):
+    """What makes all figures of a run doubtful."""
+    ended, signs = results.info.get("status", "done") == "done", "; ".join(map(str, listed(results.info, "signs_of_haste", (dict, str))))
+    return ([] if ended else ["The run has not ended: its figures are of the part that ran."]) + ([f"Not quasi-static: {signs}."] if signs else [])
+
+
 def verdict(all_results):
-    """Sentences: strength and its validity, whether what the scenes expect came, targets of a study that were not met."""
-    targets = sum(len(listed(results.info, "targets_missed", str)) for results in all_results)
-    said = [_name(results, all_results) + _of_strength(results) for results in all_results if _of_strength(results)]
-    verdicts = [one.get("met") for results in all_results for one in listed(results.info, "expectations")]
-    met, missed, count = verdicts.count(True), verdicts.count(False), len(verdicts)
-    figures, unchecked = f"{count} figure{'s' if count > 1 else ''} that the scene expects", count - met - missed
-    if met == count > 0:
+    """Sentences: targets, what makes all figures doubtful, strength and its validity, whether what the scenes expect came."""
+    missed = sum(len(listed(results.info, "targets_missed", str)) for results in all_results)
+    targets = sum(len(listed(results.info, "targets")) for results in all_results)
+    said = [_name(results, all_results) + text for results in all_results for text in (*_of_the_run(results), _of_strength(results)) if text]
+    judged = [one for results in all_results for one in listed(results.info, "expectations")]
+    met, lost = ([one for one in judged if one.get("met") is how] for how in (True, False))
+    count = len(judged)
+    figures, unchecked = f"{count} figure{'s' if count > 1 else ''} that the scene expects", count - len(met) - len(lost)
+    if len(met) == count > 0:
         said.append(f"As expected: {figures}, all met.")
     elif count:
-        start = f"Not as expected: {missed} of {figures} not met" if missed else f"{met} of {figures} met"
+        names = ", ".join(dict.fromkeys(_name_of_expected(one) for one in lost))
+        start = f"Not as expected: {len(lost)} of {figures} not met ({names})" if lost else f"{len(met)} of {figures} met"
         said.append(start + (f", {unchecked} not checked." if unchecked else "."))
-    first = [f"Not met: {targets} target{'s' if targets > 1 else ''}."] if targets else []
+    first = [f"Not met: {missed} target{'s' if missed > 1 else ''}."] if missed else []
+    first += [f"All targets met on unseen packings: {targets}."] if targets and not missed else []
     return first + ([" ".join(said)] if said else [])
 
 
+def _name_of_expected(one):
+    return words_of_key(str(one.get("entry", "")).partition("/")[2])
+
+
 def _in_unit_of(one):
-    """A found value in the unit of its range: "38.55 MPa"."""
-    value = one.get("value")
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        return value if isinstance(value, str) else "-"
-    ends = [end for end in str(one.get("range", "")).split("...") if not math.isnan(number_with_unit(end))]
-    units = [end.strip().partition(" ")[2].strip() for end in ends]
-    units += [unit for ending, unit in ENDINGS if str(one.get("entry", "")).endswith(ending)]
+    """A range and what was found, in the unit of the range: "38 MPa ... 40 MPa", "38.55 MPa"; strains in mm/m."""
+    value, wanted, entry = one.get("value"), str(one.get("range", "")), str(one.get("entry", ""))
+    ends = [end for end in wanted.split("...") if not math.isnan(number_with_unit(end))]
+    units = [end.strip().partition(" ")[2].strip() for end in ends] + [unit for ending, unit in ENDINGS if entry.endswith(ending)]
     unit = next(filter(None, units), "")
-    return f"{value / (unit_factor(unit) or 1):.4g} {unit}".strip()
+    if "strain" in entry and not unit:
+        unit, wanted = "mm/m", re.sub(r"[-+]?\d*\.?\d+(?:[eE][-+]?\d+)?", lambda one: f"{1e3 * float(one[0]):.4g} mm/m", wanted)
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return wanted, value if isinstance(value, str) else "-"
+    return wanted, f"{value / (1e-3 if unit == 'mm/m' else unit_factor(unit) or 1):.4g} {unit}".strip()
 
 
 def table_of_expectations(all_results):
@@ -156,8 +183,8 @@ def table_of_expectations(all_results):
             words = "met" if one.get("met") is True else "not met" if one.get("met") is False else "not checked"
             run, reason = one.get("run"), one.get("reason") if one.get("value") is None else None
             if not (words == "met" and "run" in one):
-                judged[words].append([name + (f"{run}: " if run else "") + words_of_key(str(one.get("entry", "")).partition("/")[2]),
-                                      str(one.get("range", "")), _in_unit_of(one), f"{words}: {reason}" if reason else words])
+                judged[words].append([name + (f"{run}: " if run else "") + _name_of_expected(one),
+                                      *_in_unit_of(one), f"{words}: {reason}" if reason else words])
     return Table(["expected by the scene", "expected", "found", ""], [*doubts, *(row for rows in judged.values() for row in rows)])
 
 
@@ -166,24 +193,30 @@ def _facts(results):
     """Specimen, platens, bonds, loading, overrides in words, by title; "" and "-" where a folder does not say it."""
     entry, info = results.entry, results.info
     number = lambda key: digits(number_in(info, key))  # noqa: E731
-    shape, over = entry("Specimen/Shape"), listed(info, "overridden")
-    if shape == "cylinder":
-        shape = f"cylinder, radius {entry('Specimen/Radius')}, height {entry('Specimen/Height')}"
-    elif shape in ("box", "bar"):
-        shape += ", " + " x ".join(filter(None, map(entry, ("Specimen/Width x", "Specimen/Width y", "Specimen/Height"))))
-    packing = (("", entry("Specimen/Packing")), ("solid fraction ", number("packing_fraction")),
+    shape, over, app = entry("Specimen/Shape"), listed(info, "overridden"), info.get("app")
+    varied = " ".join(map(str, listed(info, "varied", str))) + info.get("kind", "")  # of a study: not the same in all cases
+    sizes = [f"{word} {entry('Specimen/' + key)}" for key, word in (
+        ("Radius", "radius"), ("Width x", "width"), ("Width y", "depth"), ("Height", "thickness" if shape == "disc" else "height"))
+        if entry("Specimen/" + key) and not (word == "height" and re.search("height|slenderness|friction|size", varied))]
+    shape = "" if app == "platen-bonds" else ", ".join([shape, *sizes])
+    packing = (("", entry("Specimen/Packing") if shape else ""), ("solid fraction ", number("packing_fraction")),
                ("coordination ", number("coordination_number")))
     law, friction = entry("Effects/Bond"), friction_words(results) if isinstance(results, TestRun) else []
     bond = [law, *(f"{key.lower()} {entry('Bond/' + key)}" for key in _BOND if entry("Bond/" + key))] if law else []
-    rate, beside, ended = entry("Loading/Axial rate"), entry("Loading/Confinement").replace("none", ""), info.get("ended_by")
-    loading = [info.get("test"), rate and f"axial rate {rate}", beside and f"{beside} at {entry('Loading/Confining pressure')}",
-               ended and f"ended by {ended}"]
+    kind = [entry("Platens/Kind")] if friction else []
+    kind += [f"{key.rpartition('/')[2].lower()} {Path(entry('Platens/' + key)).name}" for key in _PLATENS
+             if "deformable" in kind and entry("Platens/" + key) not in ("", "0")]
+    rate, beside, ended = entry("Loading/Axial rate"), entry("Loading/Confinement").replace("none", ""), str(info.get("ended_by") or "")
+    stages, pressure = len(listed(info, "stages")), number_with_unit(entry("Loading/Confining pressure"))
+    test = "splitting" if app == "platen-brazilian" else info.get("test")
+    loading = [test, rate and f"axial rate {rate}", beside and beside + (f" at {entry('Loading/Confining pressure')}" if pressure > 0 else ""),
+               f"{stages} stages" if stages else "", ended and f"ended: {_ENDED.get(ended, ended)}"]
     entries = "; ".join(f"{one.get('entry')} = {one.get('value')} (scene file: {one.get('in_scene_file') or 'empty'})" for one in over)
     return {"specimen": shape, "spheres": number("particles"), "bonds": number("bonds"),
             "mean radius (mm)": digits(results.mean_radius, 1e3),
             "packing": ", ".join(name + value for name, value in packing if value not in ("", "-")), "seed": entry("Scene/Seed"),
-            "platens": entry("Platens/Kind") if friction else "", "friction of the platens": "; ".join(friction),
-            "bond law": ", ".join(bond), "loading": ", ".join(str(part) for part in loading if part),
+            "platens": ", ".join(kind), "friction of the platens": "; ".join(friction),
+            ("bonds to start from" if app == "platen-calibrate" else "bond law"): ", ".join(bond), "loading": ", ".join(str(part) for part in loading if part),
             "title in the scene file": entry("Scene/Title") if over else "", "scene file": str(info.get("scene_file") or ""),
             "overridden": entries, "program": str(info.get("version") or "")}
 
@@ -198,11 +231,16 @@ def table_of_facts(all_results):
 # ---- figures of runs
 def table_of_figures(runs):
     """Figures of the runs; with several also the first over each other one, where a ratio means something."""
-    table = Table(["figure", *(run.name for run in runs), *(f"{runs[0].name} / {run.name}" for run in runs[1:])], [])
+    without_ends = all(run.info.get("app") == "platen-brazilian" or "bending" in str(run.info.get("test")) for run in runs)
+    cones = any(math.isfinite(number_in(run.info, f"cone_{end}/half_angle_deg")) for run in runs for end in ("top", "bottom"))
+    table = Table(["figure", *(run.name for run in runs), *(f"{runs[0].name} / {run.name}" for run in runs[1:])], [],
+                  "", "" if without_ends else ENDS)
     for name, (unit, *keys) in FIGURES.items():
+        if (without_ends and name in OF_ENDS) or (name == LEAST and not cones):
+            continue
         found = [[value for value in (number_in(run.info, key) for key in keys) if math.isfinite(value)] for run in runs]
         values = [(min if name == LEAST else max)(of, default=math.nan) for of in found]
-        if name not in ALWAYS and not any(found):
+        if not any(found) and name != "strength":
             continue
         cells = [digits(value, _FACTOR[unit]) for value in values]
         if name == "strength":
@@ -217,10 +255,18 @@ def table_of_figures(runs):
 
 
 def table_of_validity(runs):
-    """Only figures with a reason against them, in words; without rows where there is none."""
-    keys = dict.fromkeys(key for run in runs for key in run.info.get("validity") or () if _reasons(run.info, key))
-    return Table(["figure that is not valid", *(run.name for run in runs)],
-                 [[words_of_key(key), *("; ".join(_reasons(run.info, key)) or "valid" for run in runs)] for key in keys])
+    """Figures with a reason against them, in words, a row for those that share theirs; without rows where there is none."""
+    alike = {}
+    for key in dict.fromkeys(key for run in runs for key in run.info.get("validity") or () if _reasons(run.info, key)):
+        cells = tuple(_in_words("; ".join(_reasons(run.info, key))) or "valid" for run in runs)
+        alike.setdefault(cells, []).append(words_of_key(key))
+    return Table(["figures that are not valid", *(run.name for run in runs)],
+                 [[", ".join(dict.fromkeys(names)), *cells] for cells, names in alike.items()])
+
+
+def _in_words(reason):
+    """A reason with the words of the keys that it names."""
+    return re.sub(r"\b[a-z]+(?:_[a-z0-9]+)+\b", lambda key: words_of_key(key[0]), reason)
 
 
 def head(all_results):
