@@ -75,8 +75,8 @@ TEST(StudyVary, entries_that_go_together_are_varied_together_and_with_the_others
   EXPECT_EQ(plan.cases[3].name, "height_2_cm_axial_rate_0.01_rotation_off");
   EXPECT_EQ(plan.cases[3].overrides,
             (Words{"Specimen/Height = 2 cm", "Loading/Axial rate = 0.01", "Effects/Rotation = off"}));
-  EXPECT_EQ(plan.cases[0].labels[0], 0.009);
-  EXPECT_EQ(plan.cases[0].labels[1], 0.005);
+  EXPECT_DOUBLE_EQ(plan.cases[0].labels[0], 0.009);
+  EXPECT_DOUBLE_EQ(plan.cases[0].labels[1], 0.005);
   EXPECT_EQ(plan.cases[3].words, (Words{"", "", "off"}));
 }
 
