@@ -10,7 +10,6 @@
 #include <functional>
 #include <iterator>
 #include <memory>
-#include <numeric>
 #include <thread>
 
 #include "apps/output/file.h"
@@ -67,13 +66,17 @@ int tell_costs(const StudySetup &study) {
     if (process.status() == status_bad_input) throw InputError(run.name + ": " + process.errors());
     if (process.status() != status_done) throw std::runtime_error(run.name + ": " + process.errors());
   }
-  const auto seconds = [](double sum, const TestRun &run) { return sum + run.seconds; };
-  const double all = std::accumulate(study.runs.begin(), study.runs.end(), 0.0, seconds),
-               together = static_cast<double>(at_a_time(study));
-  fmt::print(
-      "\nall {} runs: {} of one core, {} with {:.0f} at a time, to their target strains (counted from the "
-      "scenes)\n",
-      study.runs.size(), duration_text(all), duration_text(all / together), together);
+  double all = 0;
+  std::size_t counted = 0; // others end by what they come to
+  for (const TestRun &run : study.runs)
+    all += run.seconds, counted += run.seconds > 0 ? 1 : 0;
+  const auto together = static_cast<double>(at_a_time(study));
+  fmt::print("\nall {} runs: {}\n", study.runs.size(),
+             counted == 0 ? "time not counted: stages, stresses or files decide it"
+                          : fmt::format("{}{} of one core, {} with {:.0f} at a time, to their target strains "
+                                        "(counted from the scenes)",
+                                        counted < study.runs.size() ? "more than " : "", duration_text(all),
+                                        duration_text(all / together), together));
   return status_done;
 }
 

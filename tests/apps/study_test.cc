@@ -325,7 +325,12 @@ TEST_F(Study, a_dry_run_tells_of_each_case_and_writes_nothing) {
   EXPECT_TRUE(contains(outcome.out, "2 cases on seeds 3 to 4, 4 runs")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "sphere_radius_1.4_mm_seed_3\n")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "time step")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "all 4 runs: ") && contains(outcome.out, " of one core, "))
+      << outcome.out;
   EXPECT_FALSE(fs::exists(folder_ / "a"));
+  const Outcome staged = run(
+      "a", {"--dry-run", "-s", "Loading/Stage 1/Axial = rate", "-s", "Loading/Stage 1/Until = strain 0.5 %"});
+  EXPECT_TRUE(contains(staged.out, "all 4 runs: time not counted")) << staged.out << staged.error;
 }
 
 TEST(SeedStatistics, a_number_that_was_not_measured_does_not_count) {
