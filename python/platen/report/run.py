@@ -246,6 +246,8 @@ class TestRun(Run, Results):
             self.remarks.append(f"history.csv has {(~finite).sum()} of {len(stress)} rows without a stress, the first at the time "
                                 f"{time[~finite][0]:.6g} s: the largest may be one of them")
         self.zero = self._told_row("consolidation_end_time_s", 0)
+        if self.zero > len(time) - 3:  # all of a hydrostatic test is consolidation
+            self.zero = 0
         self.rows = slice(self.zero, None)
         self.peak_row = self._told_row("peak_time_s", int(numpy.abs(numpy.where(finite, stress, 0)).argmax()))
         self.peak_time, self.peak_stress, self.end_time = float(time[self.peak_row]), float(stress[self.peak_row]), float(time[-1])
