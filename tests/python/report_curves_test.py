@@ -98,9 +98,12 @@ class Curves(WithRuns):
 
     def test_discs_and_cells_have_their_pictures(self):
         names = lambda run: [picture.name for picture in curves.pictures_of_curves(run)]  # noqa: E731
-        disc = self.run_of({"z": [0, MPA, 0], "opening_m": [0, 1e-4, 2e-4]}, name="disc")
-        self.assertEqual(names(disc), ["stress_strain", "opening"])
-        numpy.testing.assert_allclose(list(lines_of(curves.pictures_of_curves(disc)[1])[0].values())[0], [[0, 0], [0.1, 1], [0.2, 0]])
+        disc = self.run_of({"z": [0, MPA, 0], "opening_m": [0, 1e-4, 2e-3], "broken_tension": [0, 1, 9]}, name="disc")
+        self.assertEqual((names(disc), disc.strain_title), (["opening"], "Closure over the diameter (mm/m)"))
+        stress, bonds = lines_of(curves.pictures_of_curves(disc)[0])
+        numpy.testing.assert_allclose(list(stress.values())[0], [[0, 0], [0.1, 1], [2, 0]])
+        numpy.testing.assert_allclose(bonds["broken in tension"], [[0, 0], [0.1, 1], [2, 9]])
+        self.assertAlmostEqual(house.figure_of(curves.pictures_of_curves(disc)[0]).axes[0].get_xlim()[1], 1)  # ten times that at the peak
         cell = self.run_of({"z": [0, 9, 0], "deviator_pa": [0, 6 * MPA, -3], "confining_pressure_pa": [0, 3, 3]}, name="cell")
         self.assertEqual(names(cell), ["stress_strain", "confinement", "stress_path"])
         drawn = lines_of(curves.pictures_of_curves(cell)[1])[0]

@@ -23,8 +23,12 @@ SMALL = (("contact_energy_j", "elastic energy of contacts", SKY, "-"),
          ("body_energy_j", "elastic energy of platens, sleeve and machine", GREEN, "-"), ("kinetic_energy_j", "kinetic energy", BLUE, "--"))
 RESIDUAL = ("energy_residual_j", "residual", BLACK, "--")
 MAIN_SHARE, SMALL_SHARE = 0.01, 0.05
+_MOST_OPEN = 10  # of what it was at the peak
 _STAGE_COLOURS = (*CYCLE, "#882255", "#999933", "#332288")  # after ten they come again, dashed
 _ASKED = ("Axial", "Lateral", "Lateral x", "Lateral y", "Bottom", "Top", "Left", "Right", "Front", "Back")
+
+
+_BROKEN = (("broken_tension", "broken in tension", VERMILION, "-"), ("broken_shear", "broken in shear", BLUE, "--"))
 
 
 # ---- stress, broken bonds, volume
@@ -76,7 +80,7 @@ def stress(axes, runs):
 
 def broken_bonds(axes, runs):
     """Bonds broken in tension and shear over strain."""
-    _over_strain(axes, runs, (("broken_tension", "broken in tension", VERMILION, "-"), ("broken_shear", "broken in shear", BLUE, "--")))
+    _over_strain(axes, runs, _BROKEN)
     titled(axes, _strain_label(runs), "Broken bonds", 2)
 
 
@@ -117,14 +121,21 @@ def energies(axes, run, main=True):
 
 
 # ---- discs, bars, cells
-def opening(axes, run):
-    """Splitting stress over the widening of a disc, flexural stress over the deflection of a bar; a dot at the peak."""
+def opening(axes, run, bonds=False):
+    """Splitting stress over the widening of a disc, flexural stress over the deflection of a bar, a dot at the peak; bonds: broken ones."""
     bent = run.has("deflection_m")
     way = run.h["deflection_m" if bent else "opening_m"] * MM
-    axes.plot(way, run.stress * MPA, color=BLUE, lw=1.8)
-    axes.plot(way[run.peak_row], run.peak_stress * MPA, "o", color=BLUE, label=f"peak {run.peak_stress * MPA:.4g} MPa")
+    for column, words, colour, line in _BROKEN if bonds else ():
+        if run.has(column):
+            axes.plot(way, run.h[column], line, color=colour, label=words)
+    if not bonds:
+        axes.plot(way, run.stress * MPA, color=BLUE, lw=1.8)
+        axes.plot(way[run.peak_row], run.peak_stress * MPA, "o", color=BLUE, label=f"peak {run.peak_stress * MPA:.4g} MPa")
+    most = _MOST_OPEN * way[run.peak_row]
+    if axes.get_xlim()[1] > most > 0:  # halves move apart
+        axes.set_xlim(-0.05 * most, most)
     titled(axes, "Deflection at mid-span (mm)" if bent else "Widening across the loaded diameter (mm)",
-           "Nominal flexural stress (MPa)" if bent else "Splitting stress (MPa)")
+           "Broken bonds" if bonds else "Nominal flexural stress (MPa)" if bent else "Splitting stress (MPa)", 2)
 
 
 def deviator(axes, run):
@@ -161,6 +172,12 @@ def pictures_of_curves(run, laboratory=None):
     if run.has("volumetric_strain"):
         caption += " Where the volume begins to grow, cracks open."
     pictures = [stress_strain([run], "stress_strain", caption + " Dots: the peak. The largest strains are cut off.")]
+    if run.has("opening_m") or run.has("deflection_m"):
+        words = ("Nominal flexural stress over the deflection of the bar at mid-span" if run.has("deflection_m") else
+                 "Splitting stress over the widening of the disc across the loaded diameter")
+        draws = [opening] + [partial(opening, bonds=True)] * run.has("broken_tension")
+        pictures = [chart("opening", f"{words}, broken bonds below, up to {_MOST_OPEN} times its value at the peak. Dot: the peak.", *draws,
+                          run=run, heights=[3.2, 1.7][:len(draws)], shared=True, margin=0.8)]
     if laboratory is not None:
         pictures.append(chart("laboratory", "Stress over strain of the run and of the laboratory. Dots: the peaks. The table above "
                               "compares them.", measured.against_laboratory, run=run, curve=laboratory, heights=3.6))
@@ -172,10 +189,6 @@ def pictures_of_curves(run, laboratory=None):
                         "should stay near zero.")
         pictures.append(chart("energies", caption, *(partial(energies, main=main) for main in halves), run=run,
                               heights=[3.4, 2.0][:len(halves)], shared=True, margin=0.85))
-    if run.has("opening_m") or run.has("deflection_m"):
-        words = ("Nominal flexural stress over the deflection of the bar at mid-span." if run.has("deflection_m") else
-                 "Splitting stress over the widening of the disc across the loaded diameter.")
-        pictures.append(chart("opening", words + " Dot: the peak.", opening, run=run, heights=3.2))
     if run.has("deviator_pa") and has_cell(run):
         pictures.append(chart("confinement", "Deviator and volume over strain, compression positive, and the pressure of the cell over "
                               "time. Where the volume begins to grow, cracks open against the pressure.", deviator, confined_volume,

@@ -229,6 +229,9 @@ class TestRun(Run, Results):
         self.strain, self.strain_origin = self.since(STRAIN[self.axis]), " from the end of consolidation" if self.zero > 0 else ""
         stress, strain = (f"Axial {of}" if self.axis == 2 else f"{of.capitalize()} along {'xyz'[self.axis]}" for of in ("stress", "strain"))
         self.stress_title, self.strain_title = f"{stress} (MPa)", f"{strain} between platens{self.strain_origin} (mm/m)"
+        for column, across in (("deflection_m", "depth"), ("opening_m", "diameter")):  # bars and discs have no strain between platens
+            if self.has(column):
+                self.strain_title = f"Closure over the {across} (mm/m)"
         for file, without in _WITHOUT.items():
             if not (self.folder / file).is_file():
                 self.remarks.append(f"{file} is not there{without}")
