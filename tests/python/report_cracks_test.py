@@ -116,6 +116,8 @@ class OfARun(InRun):
         early = sum(row[0] < run.peak_time for row in until)
         self.assertEqual(titles("crack_times"), [f"{early} before the peak (both halves)",
                                                  f"{len(until) - early} after the peak (both halves)"])
+        run.peak_words = "largest stress"
+        self.assertEqual(titles("crack_times")[0], f"{early} before the largest stress (both halves)")
         run.info["crack_rose"] = [1.0, 1.0]
         self.assertEqual([p.name for p in cracks.pictures_of_cracks(run)][3:], ["crack_rose"])
         run.info["crack_rose"] = [None, None]

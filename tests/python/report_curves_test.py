@@ -36,6 +36,15 @@ class Moments(WithRuns):
         self.assertEqual((run.peak_row, run.end_time), (2, 5))
         self.assertAlmostEqual(run.fall_time, 3.5)
 
+    def test_the_largest_stress_is_a_peak_only_where_it_is_a_strength(self):
+        stress = [0, 60, 100, 90, 70]
+        for name, words, z, info in (("a", "peak", stress, {}), ("b", "largest stress", stress[:3], {}),
+                                     ("c", "peak", stress[:3], {"peak_reached": True}), ("d", "largest stress", stress, {"peak_reached": False}),
+                                     ("e", "largest stress", stress, {"peak_reached": True, "validity": {"strength_pa": ["too fast"]}})):
+            run = self.run_of({"z": z}, info, name=name)
+            label = list(lines_of(curves.pictures_of_curves(run)[0])[0])[0]
+            self.assertTrue(label.startswith(f"axial, between platens: {words} 0.0001 MPa"), label)
+
     def test_a_dip_before_the_peak_is_no_fall(self):
         run = self.run_of({"z": [0, 90, 40, 100, 85]})
         self.assertEqual((run.peak_row, run.fall_time, run.pattern_time), (3, None, 4))

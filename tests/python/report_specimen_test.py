@@ -219,6 +219,10 @@ class Pictures(InRun):
         self.assertEqual(names(), always)
         one = run.TestRun(self.path)
         self.assertEqual([len(p.rows[0]) for p in specimen.pictures_of_specimen(one)], [3, 3, 2, 2, 2])
+        one.peak_time = 1.01 * one.spheres(1.0).time
+        self.assertEqual(one.near_peak("specimen"), "near the peak")
+        one.peak_time = 1.2 * one.spheres(1.0).time
+        self.assertEqual(one.near_peak("specimen"), "at 1000 ms (83 % of the time to the peak)")
         six = specimen.comparison([one] * 6)
         self.assertEqual([p.name for p in six], ["comparison_displacement", "comparison_damage", "comparison_fragments"])
         self.assertEqual([len(row) for row in six[0].rows], [4, 4])

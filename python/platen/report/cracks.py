@@ -98,9 +98,9 @@ def discs(axes, run, which):
     scene.show()
     for line in edges(run.extent):
         scene.line(line)
-    axes.set_title(f"{chosen.sum()} {which} (both halves)")
+    axes.set_title(f"{chosen.sum()} {which.replace('peak', run.peak_words)} (both halves)")
     if which == "after the peak":
-        colour_bar(axes, VIRIDIS, norm, "Time over that of the peak")
+        colour_bar(axes, VIRIDIS, norm, f"Time over that of the {run.peak_words}")
 
 
 def density_map(axes, run):
@@ -150,8 +150,8 @@ def pictures_of_cracks(run):
     pictures = [
         panels("cracks", f"Bonds broken until {until} as discs of their size, in the half specimen: in tension (left), in shear (right).",
                [partial(discs, run=run, which=which) for which in ("in tension", "in shear")], [extent], margin=0.06),
-        panels("crack_times", f"The same discs by the time when they broke, until {until}: before the peak (left) and after it (right). "
-               "Where the right half is empty, no bond broke after the peak.",
+        panels("crack_times", f"The same discs by the time when they broke, until {until}: before the {run.peak_words} (left) and after it "
+               "(right). Where the right half is empty, no bond broke after it.",
                [partial(discs, run=run, which=which) for which in ("before the peak", "after the peak")], [extent], True, margin=0.06),
         Picture("crack_density", f"Bonds broken until {until} over the height and the distance from the "
                 f"{'plane x = 0' if extent.is_plane else 'axis'}; the left half mirrors the right.{white}",

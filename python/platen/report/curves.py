@@ -56,8 +56,7 @@ def stress(axes, runs):
     for k, run in enumerate(runs):
         colour, y = CYCLE[k % len(CYCLE)], run.stress * MPA
         along = run.name if several else "axial" if run.axis == 2 else f"along {'xyz'[run.axis]}"
-        peak = "no peak reached, largest" if run.peak_reached is False else "peak"
-        peak += f" {run.peak_stress * MPA:.4g} MPa at {run.strain[run.peak_row] * MM:.3g} mm/m"
+        peak = f"{run.peak_words} {run.peak_stress * MPA:.4g} MPa at {run.strain[run.peak_row] * MM:.3g} mm/m"
         kinds = [(STRAIN[run.axis], f"{along}, between platens: {peak if run.peak_stress else 'no stress'}", colour, "-", 1.8)]
         if run.axis == 2:  # the gauge measures along z
             kinds += [("axial_strain_gauge", "axial, gauge (middle half)", VERMILION, "--", 1.2),
@@ -130,7 +129,7 @@ def opening(axes, run, bonds=False):
             axes.plot(way, run.h[column], line, color=colour, label=words)
     if not bonds:
         axes.plot(way, run.stress * MPA, color=BLUE, lw=1.8)
-        axes.plot(way[run.peak_row], run.peak_stress * MPA, "o", color=BLUE, label=f"peak {run.peak_stress * MPA:.4g} MPa")
+        axes.plot(way[run.peak_row], run.peak_stress * MPA, "o", color=BLUE, label=f"{run.peak_words} {run.peak_stress * MPA:.4g} MPa")
     most = _MOST_OPEN * way[run.peak_row]
     if axes.get_xlim()[1] > most > 0:  # halves move apart
         axes.set_xlim(-0.05 * most, most)
@@ -171,13 +170,13 @@ def pictures_of_curves(run, laboratory=None):
                     "are negative where the specimen widens.")
     if run.has("volumetric_strain"):
         caption += " Where the volume begins to grow, cracks open."
-    pictures = [stress_strain([run], "stress_strain", caption + " Dots: the peak. The largest strains are cut off.")]
+    pictures = [stress_strain([run], "stress_strain", caption + f" Dots: the {run.peak_words}. The largest strains are cut off.")]
     if run.has("opening_m") or run.has("deflection_m"):
         words = ("Nominal flexural stress over the deflection of the bar at mid-span" if run.has("deflection_m") else
                  "Splitting stress over the widening of the disc across the loaded diameter")
         draws = [opening] + [partial(opening, bonds=True)] * run.has("broken_tension")
-        pictures = [chart("opening", f"{words}, broken bonds below, up to {_MOST_OPEN} times its value at the peak. Dot: the peak.", *draws,
-                          run=run, heights=[3.2, 1.7][:len(draws)], shared=True, margin=0.8)]
+        words += f", broken bonds below, up to {_MOST_OPEN} times its value at the {run.peak_words} (dot)."
+        pictures = [chart("opening", words, *draws, run=run, heights=[3.2, 1.7][:len(draws)], shared=True, margin=0.8)]
     if laboratory is not None:
         pictures.append(chart("laboratory", "Stress over strain of the run and of the laboratory. Dots: the peaks. The table above "
                               "compares them.", measured.against_laboratory, run=run, curve=laboratory, heights=3.6))
@@ -195,7 +194,8 @@ def pictures_of_curves(run, laboratory=None):
                               cell_pressure, run=run, heights=[2.8, 2.0, 1.5], titles=True))
     if has_stress_path(run):
         pictures.append(chart("stress_path", "Stress path: mean stress and deviator of the stresses along x, y and z. A specimen whose "
-                              "sides are free follows the dashed line. Stress on the sides moves the path away from it. Dot: the peak.",
+                              "sides are free follows the dashed line. Stress on the sides moves the path away from it. "
+                              f"Dot: the {run.peak_words}.",
                               draw_stress_path, runs=[run], heights=3.4))
     return pictures
 
@@ -258,9 +258,10 @@ def section_of_sides(run):
         stress, work = run.h[SIDES[side].column] * MPA, f"friction_work_{side}_j"
         rows.append([side, digits(stress.max()), digits(stress[run.peak_row]), digits(run.h[work][-1]) if run.has(work) else "-"])
     picture = chart("side_stresses", "Stress on each platen: its force over the face of the specimen. A colour is a pair of opposite "
-                    "platens. They differ only by the friction that the other platens take up. Dots: the peak.", side_stresses, run=run,
-                    heights=3.6)
-    return Section("Sides", [picture], [Table(["side", "largest stress (MPa)", "stress at the peak (MPa)", "work of friction (J)"], rows)])
+                    f"platens. They differ only by the friction that the other platens take up. Dots: the {run.peak_words}.",
+                    side_stresses, run=run, heights=3.6)
+    header = ["side", "largest stress (MPa)", f"stress at the {run.peak_words} (MPa)", "work of friction (J)"]
+    return Section("Sides", [picture], [Table(header, rows)])
 
 
 # ---- stages
@@ -403,6 +404,7 @@ def acoustic(axes, run):
     """How many events have at least a magnitude, before and after the peak; black: the power laws of the summary."""
     time, magnitude = run.events["time_s"], run.events["magnitude"]  # those without energy have none
     for before, when, colour, line in ((True, "before the peak", BLUE, "-"), (False, "after the peak", VERMILION, "--")):
+        when = when.replace("peak", run.peak_words)
         sizes, law = numpy.sort(magnitude[numpy.isfinite(magnitude) & ((time <= run.peak_time) == before)]), power_law(run, before)[0]
         if not len(sizes):
             continue
@@ -425,7 +427,7 @@ def pictures_of_events(run):
                "follows a power law, b is its slope (black line).")
     for before, words in ((True, "before"), (False, "after")):
         if reason := power_law(run, before)[1]:
-            caption += f" No b-value {words} the peak: {reason}."
+            caption += f" No b-value {words} the {run.peak_words}: {reason}."
     return [chart("acoustic", caption, acoustic, run=run, heights=3.4)]
 
 

@@ -8,7 +8,7 @@ import numpy
 from matplotlib.colors import Normalize
 
 from ..errors import InputError
-from .fields import has_stress, near_peak, picture_of_stress_flow
+from .fields import has_stress, picture_of_stress_flow
 from .house import BLACK, BLUE, GREEN, GREY, MM, MPA, MS, VERMILION, VIRIDIS, Picture, above, chart, colour_bar, legend_above, span
 from .run import number_with_unit, point_data
 
@@ -126,7 +126,7 @@ def _over_time(axes, run, title, words=False):
         span(axes, run.h["time_s"][0] * MS, run.h["time_s"][run.zero] * MS, "consolidation" if words else "")
     axes.axvline(run.peak_time * MS, color=GREY, lw=0.8)
     if words:
-        above(axes, run.peak_time * MS, "peak")
+        above(axes, run.peak_time * MS, run.peak_words)
     axes.set(xlabel="Time (ms)", ylabel=title, xlim=(0, run.end_time * MS))
 
 
@@ -307,7 +307,7 @@ def pictures_of_ends(run):
             "platen does not slide as a whole while its friction is below the limit. Shaded: one standard error by the scatter of the "
             "spheres.", *(partial(friction, which=which) for which in ("share", "friction", "slip")), friction_work, run=run,
             heights=[1.5, 1.9, 1.5, 1.5], shared=True, titles=True))
-    near, of_spheres = near_peak(run, "contacts"), "one standard error by the scatter of the spheres"
+    near, of_spheres = run.near_peak("contacts"), "one standard error by the scatter of the spheres"
     if has_strips(run):
         found.append(chart("strip_loads", f"Load along each strip {near}. Under an even load all steps have one height. Error bars: "
                            f"{of_spheres} in a step.", strip_loads, run=run, heights=3, titles=True))
@@ -318,9 +318,9 @@ def pictures_of_ends(run):
     elif run.extent.form == "cylinder":
         sheared = is_glued(run) or sides_with_friction(run)
         found.append(chart(
-            "platen_pressure", f"Pressure on the platens{' and shear on the ends' if sheared else ''} over the radius {near}, in five rings of "
-            f"equal area. {'Inward shear confines an end; negative' if sheared else 'Negative'} pressure is tension. Error bars: {of_spheres} "
-            f"in a ring; a mark with a white centre: fewer than {_FEW} spheres.", profile,
+            "platen_pressure", f"Pressure on the platens{' and shear on the ends' if sheared else ''} over the radius {near}, in five "
+            f"rings of equal area. {'Inward shear confines an end; negative' if sheared else 'Negative'} pressure is tension. Error bars: "
+            f"{of_spheres} in a ring; a mark with a white centre: fewer than {_FEW} spheres.", profile,
             *([partial(profile, shear=True)] if sheared else []), run=run, heights=2.4, shared=True, titles=True))
     if sides_with_friction(run):
         found.append(_faces("stick_slip", f"Spheres at each platen {near}: which stick and which slide. The larger a mark, the larger its "

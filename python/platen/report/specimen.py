@@ -189,9 +189,9 @@ def cones_caption(run):
         if any(cone is not None for cone in both.values()):
             words = {end: cone.words if cone else "not measured" if cone is None else "none" for end, cone in both.items()}
             text += f" Cones at {when}, half-angles: on the top platen {words['top']}, on the bottom platen {words['bottom']}."
-    return ("Half specimen, cut along the axes of the cones. Blue spheres have moved with the bottom platen since the peak, orange "
-            f"ones with the top platen.{text} Outlines: the cones fitted to these spheres, with the measured radius at the platen: r0 "
-            "times that of the specimen.")
+    return ("Half specimen, cut along the axes of the cones. Blue spheres have moved with the bottom platen since the "
+            f"{run.peak_words}, orange ones with the top platen.{text} Outlines: the cones fitted to these spheres, with the measured "
+            "radius at the platen: r0 times that of the specimen.")
 
 
 def _with_cones(shown):
@@ -215,7 +215,7 @@ def pictures_of_specimen(run):
     if not run.series("specimen"):
         return []
     end = (run, run.end_time, "at the end")
-    moments = [(run, run.start.time, "before the test"), (run, run.peak_time, "near the peak"), end]
+    moments = [(run, run.start.time, "before the test"), (run, run.peak_time, run.near_peak("specimen")), end]
     judged = [end] if run.fall_time is None else [(run, run.fall_time, f"at {run.pattern_words}"), end]
     scales = "Each panel has its own scale. The largest 5 % have the last colour."
     aside = " The platen in front of it is not drawn." if has_further_sides(run) else ""
@@ -328,7 +328,7 @@ def pictures_of_sleeve(run):
     if not run.series("sleeve") or not run.series("specimen"):
         return []
     zero = (float(run.h["time_s"][run.zero]), "after consolidation" if run.zero > 0 else "before the test")
-    later = [(run.peak_time, "near the peak"), (run.end_time, "at the end")]
+    later = [(run.peak_time, run.near_peak("sleeve")), (run.end_time, "at the end")]
     rows = [[partial(unrolled, run=run, time=time, title=f"{when}: {words}", which=which, factor=factor, left=k == 0)
              for k, (time, when) in enumerate(later)]
             for which, factor, words in ((0, 100, "circumferential stretch (%)"), (2, MPA, "pressure of the spheres (MPa)"),
