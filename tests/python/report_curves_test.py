@@ -88,6 +88,17 @@ class Curves(WithRuns):
         self.assertEqual(axes[0].get_xlim(), axes[2].get_xlim())  # one strain axis
         self.assertLessEqual(axes[0].get_xlim()[1], 1.5 * 2)  # the largest strains are cut off
 
+    def test_a_tension_test_is_drawn_with_tension_positive(self):
+        run = self.run_of({"z": [0, -2 * MPA, -MPA], "axial_strain_platen": [0, -1e-4, -3e-4], "volumetric_strain": [0, -5e-5, -2e-4],
+                           "boundary_work_j": [0, 1, 2]}, {"test": "tension"})
+        pictures = curves.pictures_of_curves(run)
+        above, volume = house.figure_of(pictures[0]).axes
+        numpy.testing.assert_allclose(above.lines[0].get_xydata(), [[0, 0], [0.1, 2], [0.3, 1]])
+        numpy.testing.assert_allclose(volume.lines[0].get_xydata(), [[0, 0], [0.1, 0.05], [0.3, 0.2]])
+        self.assertEqual(above.lines[0].get_label(), "axial, between platens: peak 2 MPa at 0.1 mm/m")
+        self.assertEqual((above.get_ylabel(), volume.get_xlabel()), ("Axial stress (MPa), tension positive", "Strain (mm/m), tension positive"))
+        numpy.testing.assert_allclose(lines_of(pictures[1])[0]["work of the platens"][:, 0], [0, 0.1, 0.3])
+
     def test_plastic_work_is_named_by_its_law_and_what_is_zero_is_not_drawn(self):
         columns = {"z": [0, 1, 2], "boundary_work_j": [0, 5, 10], "bond_energy_j": [0, 4, 6], "plastic_work_j": [0, 1, 3],
                    "friction_work_j": [0, 0, 0], "contact_energy_j": [0, 0.1, 0.2], "energy_residual_j": [0, 0, 1e-3]}

@@ -32,6 +32,11 @@ _BROKEN = (("broken_tension", "broken in tension", VERMILION, "-"), ("broken_she
 
 
 # ---- stress, broken bonds, volume
+def _sign(runs):
+    """Of stresses and strains that are drawn: those of tension tests by themselves are positive in tension."""
+    return -1 if all(run.info.get("test") == "tension" for run in runs) else 1
+
+
 def _over_strain(axes, runs, columns, factor=1.0, since=False):
     """Columns (name, words, colour, line) of the histories from the end of consolidation on, as far as they have them, over strain; since:
     less what they were there. Of several runs a colour is a run."""
@@ -39,24 +44,24 @@ def _over_strain(axes, runs, columns, factor=1.0, since=False):
         for column, words, colour, line in columns:
             if run.has(column):
                 values = (run.since(column) if since else run.h[column]) * factor
-                axes.plot(run.strain[run.rows] * MM, values[run.rows], line, color=CYCLE[k % len(CYCLE)] if len(runs) > 1 else colour,
+                axes.plot(_sign(runs) * run.strain[run.rows] * MM, values[run.rows], line, color=CYCLE[k % len(CYCLE)] if len(runs) > 1 else colour,
                           label=words if len(runs) == 1 else None)
 
 
 def _strain_label(runs):
     consolidated = [run.zero > 0 for run in runs]
     origin = " from the end of consolidation" * any(consolidated) + ", where there is one" * (any(consolidated) and not all(consolidated))
-    return f"Strain{origin} (mm/m), compression positive"
+    return f"Strain{origin} (mm/m), {'compression' if _sign(runs) > 0 else 'tension'} positive"
 
 
 def stress(axes, runs):
     """Stress over strain between platens and in the gauge, lateral strain to the left; dots at the peaks. One run: kinds of
     strain have colours; several: runs have."""
-    several, furthest = len(runs) > 1, 0.0
+    several, furthest, sign = len(runs) > 1, 0.0, _sign(runs)
     for k, run in enumerate(runs):
-        colour, y = CYCLE[k % len(CYCLE)], run.stress * MPA
+        colour, y, strain = CYCLE[k % len(CYCLE)], sign * run.stress * MPA, sign * run.strain * MM
         along = run.name if several else "axial" if run.axis == 2 else f"along {'xyz'[run.axis]}"
-        peak = f"{run.peak_words} {run.peak_stress * MPA:.4g} MPa at {run.strain[run.peak_row] * MM:.3g} mm/m"
+        peak = f"{run.peak_words} {y[run.peak_row]:.4g} MPa at {strain[run.peak_row]:.3g} mm/m"
         kinds = [(STRAIN[run.axis], f"{along}, between platens: {peak if run.peak_stress else 'no stress'}", colour, "-", 1.8)]
         if run.axis == 2:  # the gauge measures along z
             kinds += [("axial_strain_gauge", "axial, gauge (middle half)", VERMILION, "--", 1.2),
@@ -66,15 +71,15 @@ def stress(axes, runs):
                       for axis in range(3) if axis != run.axis]
         for n, (column, words, own, line, width) in enumerate(kinds):
             if run.has(column):
-                axes.plot(run.since(column)[run.rows] * MM, y[run.rows], line, color=colour if several else own, lw=width,
+                axes.plot(sign * run.since(column)[run.rows] * MM, y[run.rows], line, color=colour if several else own, lw=width,
                           label=words if n == 0 or not several else None)
             if n == 0:
-                axes.plot(run.strain[run.peak_row] * MM, y[run.peak_row], "o", color=colour)
-        furthest = max(furthest, float(numpy.nanmax(run.strain[run.rows])) * MM)
+                axes.plot(strain[run.peak_row], y[run.peak_row], "o", color=colour)
+        furthest = max(furthest, float(numpy.nanmax(strain[run.rows])))
     if furthest > 0:  # what opens once it has failed is cut off
         low, high = axes.get_xlim()
         axes.set_xlim(max(low, -1.2 * furthest), min(high, 1.5 * furthest))
-    titled(axes, _strain_label(runs), runs[0].stress_title)
+    titled(axes, _strain_label(runs), runs[0].stress_title + ", tension positive" * (sign < 0))
 
 
 def broken_bonds(axes, runs):
@@ -87,9 +92,10 @@ def volume(axes, runs):
     """Volumetric strain of the gauge over strain; dots at the peaks."""
     for k, run in enumerate(runs):
         if run.has("volumetric_strain"):
-            colour, y = CYCLE[k % len(CYCLE)] if len(runs) > 1 else GREEN, run.since("volumetric_strain") * MM
-            axes.plot(run.strain[run.rows] * MM, y[run.rows], color=colour)
-            axes.plot(run.strain[run.peak_row] * MM, y[run.peak_row], "o", color=colour)
+            colour = CYCLE[k % len(CYCLE)] if len(runs) > 1 else GREEN
+            x, y = (_sign(runs) * strain * MM for strain in (run.strain, run.since("volumetric_strain")))
+            axes.plot(x[run.rows], y[run.rows], color=colour)
+            axes.plot(x[run.peak_row], y[run.peak_row], "o", color=colour)
     axes.set(xlabel=_strain_label(runs), ylabel="Volumetric\nstrain (mm/m)")
 
 
@@ -114,9 +120,9 @@ def energies(axes, run, main=True):
     law = run.entry("Effects/Bond")
     for column, words, colour, line in _terms(run, main):
         label = words.format(law=law or "all laws", fracture=FRACTURE.get(law, "broken bonds"))
-        axes.plot(run.strain * MM, run.h[column], line, color=colour, label=label)
+        axes.plot(_sign([run]) * run.strain * MM, run.h[column], line, color=colour, label=label)
     axes.locator_params(axis="y", nbins=6)
-    titled(axes, run.strain_title, "Energy (J)", 2)
+    titled(axes, run.strain_title + ", tension positive" * (_sign([run]) < 0), "Energy (J)", 2)
 
 
 # ---- discs, bars, cells
@@ -167,7 +173,7 @@ def pictures_of_curves(run, laboratory=None):
         caption += " Broken bonds and volume are drawn below, over the strain between the platens."
     if run.axis == 2 and run.has("axial_strain_gauge"):
         caption += (" The strain between platens includes the deformation of the ends; the gauge measures the middle half. Lateral strains "
-                    "are negative where the specimen widens.")
+                    f"are negative where the specimen {'widens' if _sign([run]) > 0 else 'narrows'}.")
     if run.has("volumetric_strain"):
         caption += " Where the volume begins to grow, cracks open."
     pictures = [stress_strain([run], "stress_strain", caption + f" Dots: the {run.peak_words}. The largest strains are cut off.")]
