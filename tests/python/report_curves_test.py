@@ -99,6 +99,20 @@ class Curves(WithRuns):
         self.assertEqual((above.get_ylabel(), volume.get_xlabel()), ("Axial stress (MPa), tension positive", "Strain (mm/m), tension positive"))
         numpy.testing.assert_allclose(lines_of(pictures[1])[0]["work of the platens"][:, 0], [0, 0.1, 0.3])
 
+    def test_what_unloads_is_drawn_over_time(self):
+        strain = [0, 1e-3, 0.5e-3, 2e-3]
+        columns = {"z": [0, 2 * MPA, MPA, 3 * MPA], "axial_strain_platen": strain, "broken_tension": [0, 1, 2, 9],
+                   "volumetric_strain": strain, "boundary_work_j": [0, 1, 0.5, 2]}
+        run = self.run_of(columns)
+        stress, bonds, volume = house.figure_of(curves.pictures_of_curves(run)[0]).axes
+        energies = house.figure_of(curves.pictures_of_curves(run)[1]).axes[0]
+        numpy.testing.assert_allclose(stress.lines[0].get_xdata(), [0, 1, 0.5, 2])
+        for axes in (bonds, volume, energies):
+            numpy.testing.assert_allclose(axes.lines[0].get_xdata(), [0, 1e3, 2e3, 3e3])  # ms
+        self.assertEqual([axes.get_xlabel() for axes in (stress, bonds, volume, energies)],
+                         ["Strain (mm/m), compression positive", "", "Time (ms)", "Time (ms)"])
+        self.assertFalse(self.run_of({**columns, "axial_strain_platen": [0, 1e-3, 0.96e-3, 2e-3]}, name="nearly").goes_back)
+
     def test_plastic_work_is_named_by_its_law_and_what_is_zero_is_not_drawn(self):
         columns = {"z": [0, 1, 2], "boundary_work_j": [0, 5, 10], "bond_energy_j": [0, 4, 6], "plastic_work_j": [0, 1, 3],
                    "friction_work_j": [0, 0, 0], "contact_energy_j": [0, 0.1, 0.2], "energy_residual_j": [0, 0, 1e-3]}
@@ -126,6 +140,8 @@ class Curves(WithRuns):
         self.assertAlmostEqual(house.figure_of(curves.pictures_of_curves(disc)[0]).axes[0].get_xlim()[1], 1)  # ten times that at the peak
         cell = self.run_of({"z": [0, 9, 0], "deviator_pa": [0, 6 * MPA, -3], "confining_pressure_pa": [0, 3, 3]}, name="cell")
         self.assertEqual(names(cell), ["stress_strain", "confinement", "stress_path"])
+        self.assertEqual([axes.get_xlabel() for axes in house.figure_of(curves.pictures_of_curves(cell)[1]).axes],
+                         ["", "Axial strain between platens (mm/m)", "Time (ms)"])
         drawn = lines_of(curves.pictures_of_curves(cell)[1])[0]
         numpy.testing.assert_allclose(drawn["axial stress less the pressure of the cell"][1], [1, 6])
 

@@ -39,13 +39,21 @@ def _sign(runs):
 
 def _over_strain(axes, runs, columns, factor=1.0, since=False):
     """Columns (name, words, colour, line) of the histories from the end of consolidation on, as far as they have them, over strain; since:
-    less what they were there. Of several runs a colour is a run."""
+    less what they were there; over time where the strain of all goes back. Of several runs a colour is a run."""
     for k, run in enumerate(runs):
         for column, words, colour, line in columns:
             if run.has(column):
                 values = (run.since(column) if since else run.h[column]) * factor
-                axes.plot(_sign(runs) * run.strain[run.rows] * MM, values[run.rows], line, color=CYCLE[k % len(CYCLE)] if len(runs) > 1 else colour,
+                axes.plot(_along(run, runs)[run.rows], values[run.rows], line, color=CYCLE[k % len(CYCLE)] if len(runs) > 1 else colour,
                           label=words if len(runs) == 1 else None)
+
+
+def _over_time(runs):
+    return all(run.goes_back for run in runs)  # over a strain that goes back curves would be a tangle
+
+
+def _along(run, runs):
+    return run.h["time_s"] * MS if _over_time(runs) else _sign(runs) * run.strain * MM
 
 
 def _strain_label(runs):
@@ -85,7 +93,7 @@ def stress(axes, runs):
 def broken_bonds(axes, runs):
     """Bonds broken in tension and shear over strain."""
     _over_strain(axes, runs, _BROKEN)
-    titled(axes, _strain_label(runs), "Broken bonds", 2)
+    titled(axes, "Time (ms)" if _over_time(runs) else _strain_label(runs), "Broken bonds", 2)
 
 
 def volume(axes, runs):
@@ -93,20 +101,25 @@ def volume(axes, runs):
     for k, run in enumerate(runs):
         if run.has("volumetric_strain"):
             colour = CYCLE[k % len(CYCLE)] if len(runs) > 1 else GREEN
-            x, y = (_sign(runs) * strain * MM for strain in (run.strain, run.since("volumetric_strain")))
+            x, y = _along(run, runs), _sign(runs) * run.since("volumetric_strain") * MM
             axes.plot(x[run.rows], y[run.rows], color=colour)
             axes.plot(x[run.peak_row], y[run.peak_row], "o", color=colour)
-    axes.set(xlabel=_strain_label(runs), ylabel="Volumetric\nstrain (mm/m)")
+    axes.set(xlabel="Time (ms)" if _over_time(runs) else _strain_label(runs), ylabel="Volumetric\nstrain (mm/m)")
 
 
 def stress_strain(runs, name, caption):
     """The Picture of stress, broken bonds and volume under one another, as far as the histories have them."""
     draws = [stress, *(draw for draw, columns in ((broken_bonds, ("broken_tension", "broken_shear")), (volume, ("volumetric_strain",)))
                        if any(run.has(column) for run in runs for column in columns))]
-    return chart(name, caption, *draws, runs=runs, heights=[3.3 + 0.17 * len(runs), 1.7, 1.5][:len(draws)], shared=True, margin=0.8)
+    return chart(name, caption, *draws, runs=runs, heights=[3.3 + 0.17 * len(runs), 1.7, 1.5][:len(draws)],
+                 shared={2} if _over_time(runs) else True, margin=0.8)
 
 
 # ---- energies
+def _along_title(run):
+    return "Time (ms)" if run.goes_back else run.strain_title + ", tension positive" * (_sign([run]) < 0)
+
+
 def _terms(run, main):
     """Terms of one of both charts that are not zero throughout."""
     most = {term: numpy.abs(numpy.nan_to_num(run.h[term[0]])).max() for term in (*MAIN, *SMALL, RESIDUAL) if run.has(term[0])}
@@ -116,13 +129,13 @@ def _terms(run, main):
 
 
 def energies(axes, run, main=True):
-    """Over strain, where the work of the platens went; with main=False its small terms and the residual."""
+    """Over strain (time, where that goes back), where the work of the platens went; with main=False its small terms and the residual."""
     law = run.entry("Effects/Bond")
     for column, words, colour, line in _terms(run, main):
         label = words.format(law=law or "all laws", fracture=FRACTURE.get(law, "broken bonds"))
-        axes.plot(_sign([run]) * run.strain * MM, run.h[column], line, color=colour, label=label)
+        axes.plot(_along(run, [run]), run.h[column], line, color=colour, label=label)
     axes.locator_params(axis="y", nbins=6)
-    titled(axes, run.strain_title + ", tension positive" * (_sign([run]) < 0), "Energy (J)", 2)
+    titled(axes, _along_title(run), "Energy (J)", 2)
 
 
 # ---- discs, bars, cells
@@ -147,14 +160,14 @@ def deviator(axes, run):
     """Deviator over strain."""
     _over_strain(axes, [run], (("deviator_pa", "axial stress less the pressure of the cell", BLUE, "-"),
                                ("sleeve_deviator_pa", "carried by the ends of the sleeve", VERMILION, "--")), MPA)
-    titled(axes, run.strain_title, "Deviator (MPa)", 2)
+    titled(axes, _along_title(run), "Deviator (MPa)", 2)
 
 
 def confined_volume(axes, run):
     """Volumetric strains over strain: of the gauge, and of all that is within a sleeve."""
     _over_strain(axes, [run], (("volumetric_strain", "gauge (middle half)", GREEN, "-"),
                                ("volumetric_strain_sleeve", "all within the sleeve", PURPLE, "--")), MM, since=True)
-    titled(axes, run.strain_title, "Volumetric strain (mm/m)", 2)
+    titled(axes, _along_title(run), "Volumetric\nstrain (mm/m)", 2)
 
 
 def cell_pressure(axes, run):
@@ -170,7 +183,7 @@ def pictures_of_curves(run, laboratory=None):
     """The Pictures of the section "Stress and energy" that the files of a run allow. laboratory: a laboratory.Curve beside."""
     caption = "Stress over strain."
     if run.has("broken_tension"):
-        caption += " Broken bonds and volume are drawn below, over the strain between the platens."
+        caption += f" Broken bonds and volume are drawn below, over {'time' if run.goes_back else 'the strain between the platens'}."
     if run.axis == 2 and run.has("axial_strain_gauge"):
         caption += (" The strain between platens includes the deformation of the ends; the gauge measures the middle half. Lateral strains "
                     f"are negative where the specimen {'widens' if _sign([run]) > 0 else 'narrows'}.")
@@ -195,9 +208,9 @@ def pictures_of_curves(run, laboratory=None):
         pictures.append(chart("energies", caption, *(partial(energies, main=main) for main in halves), run=run,
                               heights=[3.4, 2.0][:len(halves)], shared=True, margin=0.85))
     if run.has("deviator_pa") and has_cell(run):
-        pictures.append(chart("confinement", "Deviator and volume over strain, compression positive, and the pressure of the cell over "
-                              "time. Where the volume begins to grow, cracks open against the pressure.", deviator, confined_volume,
-                              cell_pressure, run=run, heights=[2.8, 2.0, 1.5], titles=True))
+        pictures.append(chart("confinement", f"Deviator and volume over {'time' if run.goes_back else 'strain'}, compression positive, and "
+                              "the pressure of the cell over time. Where the volume begins to grow, cracks open against the pressure.", deviator, confined_volume,
+                              cell_pressure, run=run, heights=[2.8, 2.0, 1.5], titles=True, margin=0.8, shared=True if run.goes_back else {1}))
     if has_stress_path(run):
         pictures.append(chart("stress_path", "Stress path: mean stress and deviator of the stresses along x, y and z. A specimen whose "
                               "sides are free follows the dashed line. Stress on the sides moves the path away from it. "

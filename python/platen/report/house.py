@@ -52,7 +52,8 @@ def digits(value, factor=1.0):
 
 class Picture(NamedTuple):
     """name: of its files, without ending. rows: of each row of panels the functions draw(axes). heights: inches of each row,
-    or one for all. bar: room on the right for colour_bar. shared: all rows have one x axis, labelled at the lowest.
+    or one for all. bar: room on the right for colour_bar. shared: rows that have the x axis of the one above; True: all have one, labelled
+    at the lowest.
     raster: what it shows is an image, so the page holds a PNG; a chart is held as SVG. titles: room over panels for a title.
     margin: on the left (inches); with less than 0.3 there is no room for labels of axes."""
 
@@ -61,14 +62,14 @@ class Picture(NamedTuple):
     rows: list
     heights: object = 2.6
     width: float = 7.6
-    shared: bool = False
+    shared: object = ()
     raster: bool = False
     bar: bool = False
     titles: bool = False
     margin: float = 0.72
 
 
-def chart(name, caption, *draws, heights=2.6, width=7.6, shared=False, titles=False, margin=0.72, **of):
+def chart(name, caption, *draws, heights=2.6, width=7.6, shared=(), titles=False, margin=0.72, **of):
     """A Picture of charts one over another; of: what each function draws, by the name of its argument."""
     return Picture(name, caption, [[partial(draw, **of)] for draw in draws], heights, width, shared, titles=titles, margin=margin)
 
@@ -78,24 +79,26 @@ def figure_of(picture):
     time of a page."""
     heights, named = numpy.broadcast_to(picture.heights, len(picture.rows)).tolist(), picture.margin > 0.3
     bottom, right, top = (0.5 if named else 0.12), (0.95 if picture.bar else 0.15), (0.3 if picture.titles else 0.12)
-    between, gap = 0.14 if picture.shared else 0.55 + (0.3 if picture.titles else 0), 0.72 if named else 0.12
-    total = sum(heights) + bottom + top + between * (len(heights) - 1)
+    gap, shared = 0.72 if named else 0.12, range(1, len(heights)) if picture.shared is True else picture.shared
+    between = [0.14 if k in shared else 0.55 + (0.3 if picture.titles else 0) for k in range(1, len(heights))] + [0]
+    total = sum(heights) + bottom + top + sum(between)
     with matplotlib.rc_context(STYLE):
         figure = Figure(figsize=(picture.width, total))
         FigureCanvasAgg(figure)
         y, first = total - top, None
-        for line, height in zip(picture.rows, heights):
+        for row, (line, height) in enumerate(zip(picture.rows, heights)):
             y -= height
+            first = first if row in shared else None
             each = (picture.width - picture.margin - right - gap * (len(line) - 1)) / len(line)
             for k, draw in enumerate(line):
                 place = [(picture.margin + k * (each + gap)) / picture.width, y / total, each / picture.width, height / total]
-                axes = figure.add_axes(place, sharex=first if picture.shared else None)
+                axes = figure.add_axes(place, sharex=first if shared else None)
                 first = first or axes
                 draw(axes)
-                if picture.shared and line is not picture.rows[-1]:
+                if row + 1 in shared:
                     axes.tick_params(labelbottom=False, which="both")
                     axes.set_xlabel("")
-            y -= between
+            y -= between[row]
     return figure
 
 

@@ -15,6 +15,7 @@ from ..results import Run, read_json, read_table
 # Columns of stress and strain along x, y, z; of the low platen first.
 STRESS = (("stress_left_pa", "stress_right_pa"), ("stress_front_pa", "stress_back_pa"), ("axial_stress_bottom_pa", "axial_stress_top_pa"))
 _NEAR = 0.05  # of the time to the peak
+_BACK = 0.05  # of the largest strain
 STRAIN = ("strain_x", "strain_y", "axial_strain_platen")
 _PREFIX = {"": 1, "p": 1e-12, "n": 1e-9, "u": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6, "G": 1e9, "T": 1e12}
 _UNIT = {"m": 1, "s": 1, "N": 1, "Pa": 1, "J": 1, "rad": 1, "bar": 1e5, "g": 1e-3, "psi": 6894.757293168361}
@@ -209,7 +210,7 @@ class TestRun(Run, Results):
     """A platen.Run as a test. All times in s, stresses in Pa, strains as fractions, compression positive.
 
     h: its history. axis: that is loaded, 0 ... 2; strain: between the platens along it, one a row. zero: the row at the end of
-    consolidation, from which strains count; rows: from it on. peak_row, peak_time, peak_stress; peak_reached: whether it went over
+    consolidation, from which strains count; rows: from it on; goes_back: whether the strain does, as in unloading. peak_row, peak_time, peak_stress; peak_reached: whether it went over
     its peak, None where the summary does not say; peak_words: "peak", or "largest stress" where that is no strength. fall_time: of the
     fall to 0.8 of the peak, None where it did not come. end_time. pattern_time, pattern_words: when the crack pattern is judged, at the
     fall, or at the end. remarks: what its files lack.
@@ -254,6 +255,9 @@ class TestRun(Run, Results):
         if self.zero > len(time) - 3:  # all of a hydrostatic test is consolidation
             self.zero = 0
         self.rows = slice(self.zero, None)
+        strain = numpy.nan_to_num(self.since(STRAIN[self.axis])[self.rows])
+        back = numpy.maximum.accumulate(numpy.abs(strain)) - numpy.abs(strain)
+        self.goes_back = bool(back.max() > _BACK * numpy.abs(strain).max())
         self.peak_row = self._told_row("peak_time_s", int(numpy.abs(numpy.where(finite, stress, 0)).argmax()))
         self.peak_time, self.peak_stress, self.end_time = float(time[self.peak_row]), float(stress[self.peak_row]), float(time[-1])
         told = number_in(self.info, "fall_time_s") if "fall_time_s" in self.info else self._fall(stress, time)
