@@ -82,7 +82,7 @@ class Curves(WithRuns):
                            "volumetric_strain": [0, 1e-3, -5e-3], "broken_tension": [0, 1, 5]})
         axes = house.figure_of(curves.pictures_of_curves(run)[0]).axes
         colours = [line.get_color() for line in axes[0].lines if len(line.get_xdata()) > 1]
-        self.assertEqual(colours, [house.BLUE, house.VERMILION, house.GREEN])
+        self.assertEqual(colours, [house.BLACK, house.GREY, house.GREEN])
         numpy.testing.assert_allclose(axes[0].lines[3].get_xydata(), [[0, 0], [-0.1, 1], [-0.2, 2]])
         numpy.testing.assert_allclose(axes[2].lines[0].get_xydata(), [[0, 0], [1, 1], [2, -5]])
         self.assertEqual(axes[0].get_xlim(), axes[2].get_xlim())  # one strain axis

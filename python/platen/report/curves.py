@@ -20,7 +20,7 @@ MAIN = (("boundary_work_j", "work of the platens", BLACK, "-"), ("bond_energy_j"
         ("damping_work_j", "damping", GREY, "-"), ("plastic_work_j", "plastic work of bonds ({law})", PURPLE, "-"))
 FRACTURE = {"elasto damage plastic": "damage of bonds", "facet": "damage and slip of bonds"}  # by law; else broken bonds
 SMALL = (("contact_energy_j", "elastic energy of contacts", SKY, "-"),
-         ("body_energy_j", "elastic energy of platens, sleeve and machine", GREEN, "-"), ("kinetic_energy_j", "kinetic energy", BLUE, "--"))
+         ("body_energy_j", "elastic energy of platens, sleeve and machine", GREEN, "-"), ("kinetic_energy_j", "kinetic energy", "#882255", "--"))
 RESIDUAL = ("energy_residual_j", "residual", BLACK, "--")
 MAIN_SHARE, SMALL_SHARE = 0.01, 0.05
 _MOST_OPEN = 10  # of what it was at the peak
@@ -67,15 +67,15 @@ def stress(axes, runs):
     strain have colours; several: runs have."""
     several, furthest, sign = len(runs) > 1, 0.0, _sign(runs)
     for k, run in enumerate(runs):
-        colour, y, strain = CYCLE[k % len(CYCLE)], sign * run.stress * MPA, sign * run.strain * MM
+        colour, y, strain = CYCLE[k % len(CYCLE)] if several else BLACK, sign * run.stress * MPA, sign * run.strain * MM
         along = run.name if several else "axial" if run.axis == 2 else f"along {'xyz'[run.axis]}"
         peak = f"{run.peak_words} {y[run.peak_row]:.4g} MPa at {strain[run.peak_row]:.3g} mm/m"
         kinds = [(STRAIN[run.axis], f"{along}, between platens: {peak if run.peak_stress else 'no stress'}", colour, "-", 1.8)]
         if run.axis == 2:  # the gauge measures along z
-            kinds += [("axial_strain_gauge", "axial, gauge (middle half)", VERMILION, "--", 1.2),
+            kinds += [("axial_strain_gauge", "axial, gauge (middle half)", GREY, "--", 1.2),
                       ("lateral_strain", "lateral, gauge", GREEN, "-", 1.2)]
         elif not several:
-            kinds += [(STRAIN[axis], f"along {'xyz'[axis]}, between platens", GREEN if axis == 2 else VERMILION, "-", 1.2)
+            kinds += [(STRAIN[axis], f"along {'xyz'[axis]}, between platens", GREEN if axis == 2 else GREY, "-", 1.2)
                       for axis in range(3) if axis != run.axis]
         for n, (column, words, own, line, width) in enumerate(kinds):
             if run.has(column):
@@ -147,8 +147,8 @@ def opening(axes, run, bonds=False):
         if run.has(column):
             axes.plot(way, run.h[column], line, color=colour, label=words)
     if not bonds:
-        axes.plot(way, run.stress * MPA, color=BLUE, lw=1.8)
-        axes.plot(way[run.peak_row], run.peak_stress * MPA, "o", color=BLUE, label=f"{run.peak_words} {run.peak_stress * MPA:.4g} MPa")
+        axes.plot(way, run.stress * MPA, color=BLACK, lw=1.8)
+        axes.plot(way[run.peak_row], run.peak_stress * MPA, "o", color=BLACK, label=f"{run.peak_words} {run.peak_stress * MPA:.4g} MPa")
     most = _MOST_OPEN * way[run.peak_row]
     if axes.get_xlim()[1] > most > 0:  # halves move apart
         axes.set_xlim(-0.05 * most, most)
@@ -158,8 +158,8 @@ def opening(axes, run, bonds=False):
 
 def deviator(axes, run):
     """Deviator over strain."""
-    _over_strain(axes, [run], (("deviator_pa", "axial stress less the pressure of the cell", BLUE, "-"),
-                               ("sleeve_deviator_pa", "carried by the ends of the sleeve", VERMILION, "--")), MPA)
+    _over_strain(axes, [run], (("deviator_pa", "axial stress less the pressure of the cell", BLACK, "-"),
+                               ("sleeve_deviator_pa", "carried by the ends of the sleeve", PURPLE, "--")), MPA)
     titled(axes, _along_title(run), "Deviator (MPa)", 2)
 
 
@@ -422,7 +422,7 @@ def power_law(run, before):
 def acoustic(axes, run):
     """How many events have at least a magnitude, before and after the peak; black: the power laws of the summary."""
     time, magnitude = run.events["time_s"], run.events["magnitude"]  # those without energy have none
-    for before, when, colour, line in ((True, "before the peak", BLUE, "-"), (False, "after the peak", VERMILION, "--")):
+    for before, when, colour, line in ((True, "before the peak", GREEN, "-"), (False, "after the peak", PURPLE, "--")):
         when = when.replace("peak", run.peak_words)
         sizes, law = numpy.sort(magnitude[numpy.isfinite(magnitude) & ((time <= run.peak_time) == before)]), power_law(run, before)[0]
         if not len(sizes):
