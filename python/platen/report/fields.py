@@ -282,6 +282,7 @@ def stress_flow(axes, run, shear=False, beside=False):
     low, high = ((grid.origin + grid.spacing * (end * grid.nodes - 0.5)) * MM for end in (0, 1))
     axes.imshow(image.reshape(grid.nodes[2], grid.nodes[0], 3), origin="lower", aspect="auto", extent=(low[0], high[0], low[2], high[2]))
     axes.set_box_aspect((high - low)[2] / (high - low)[0])
+    axes.invert_xaxis()  # as in all pictures of the specimen
     axes.grid(False)
     axes.tick_params(labelleft=not beside)
     axes.set(xlabel="x (mm)", ylabel="" if beside else "z (mm)", title="Largest shear stress (MPa)" if shear else "Vertical stress (MPa)")
@@ -296,7 +297,7 @@ def picture_of_stress_flow(run):
     width = 0.72 + 0.95 + (0.72 + 2 * height / ratio if tall else 5.6)
     draws = [partial(stress_flow, run=run), partial(stress_flow, run=run, shear=True, beside=tall)]
     caption = (f"Stress in the plane y = {_FINENESS * radius:.2g} mm {run.near_peak('specimen')}: vertical stress, compression positive, "
-               f"and the largest shear stress. Each value is an average over the spheres within {_REACH_IN_PICTURES * radius:.2g} mm. Each "
+               f"and the largest shear stress; x points to the left. Each value is an average over the spheres within {_REACH_IN_PICTURES * radius:.2g} mm. Each "
                "colour scale covers 96 % of the values; smaller and larger ones have the colours of its ends. White: neither specimen nor "
                "platen. Grey: rigid platens, which have no stress.")
     rows = [draws] if tall else [[draw] for draw in draws]
