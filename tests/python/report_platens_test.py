@@ -182,6 +182,7 @@ class Pictures(Runs):
         numpy.testing.assert_allclose([axes.lines[1].get_xydata()[1] for axes in (share, friction, slip)],
                                       [[1e3, 0.6], [1e3, INWARD * 2 / 3], [1e3, 2]], rtol=1e-3)  # ms; micrometres
         self.assertEqual([text.get_text() for text in friction.texts], ["limit, static: 0.5", "limit, sliding: 0.4", "peak"])
+        self.assertEqual(friction.texts[2].get_va(), "top")  # in its chart, not between two
         numpy.testing.assert_allclose(drawn["platen_pressure"][0].lines[0].get_xydata()[0], [1e3 * RADIUS * math.sqrt(0.1), 30], rtol=1e-6)
         self.assertEqual([text.get_text() for text in drawn["stick_slip"][1].get_legend().get_texts()], ["top: 800 stick", "1200 slide"])
         greased = {p.name: p for p in platens.pictures_of_ends(self.run_of({"Friction static": 0, "Top/Friction static": 0.1}, of_ends=ends()))}

@@ -112,7 +112,7 @@ def stress_strain(runs, name, caption):
     draws = [stress, *(draw for draw, columns in ((broken_bonds, ("broken_tension", "broken_shear")), (volume, ("volumetric_strain",)))
                        if any(run.has(column) for run in runs for column in columns))]
     return chart(name, caption, *draws, runs=runs, heights=[3.3 + 0.17 * len(runs), 1.7, 1.5][:len(draws)],
-                 shared={2} if _over_time(runs) else True, margin=0.8)
+                 shared={2} if _over_time(runs) else True, margin=0.9)
 
 
 # ---- energies
@@ -174,6 +174,7 @@ def cell_pressure(axes, run):
     """Pressure of the cell over time, the consolidation marked."""
     time = run.h["time_s"] * MS
     axes.plot(time, run.h["confining_pressure_pa"] * MPA, color=BLACK)
+    axes.set_ylim(top=1.2 * axes.get_ylim()[1])
     if run.zero > 0:
         span(axes, time[0], time[run.zero], "consolidation")
     axes.set(xlabel="Time (ms)", ylabel="Pressure of\nthe cell (MPa)")
@@ -209,8 +210,9 @@ def pictures_of_curves(run, laboratory=None):
                               heights=[3.4, 2.0][:len(halves)], shared=True, margin=0.85))
     if run.has("deviator_pa") and has_cell(run):
         pictures.append(chart("confinement", f"Deviator and volume over {'time' if run.goes_back else 'strain'}, compression positive, and "
-                              "the pressure of the cell over time. Where the volume begins to grow, cracks open against the pressure.", deviator, confined_volume,
-                              cell_pressure, run=run, heights=[2.8, 2.0, 1.5], titles=True, margin=0.8, shared=True if run.goes_back else {1}))
+                              "the pressure of the cell over time. Where the volume begins to grow, cracks open against the pressure.",
+                              deviator, confined_volume, cell_pressure, run=run, heights=[2.8, 1.7, 1.5],
+                              shared=True if run.goes_back else {1}, margin=0.9))
     if has_stress_path(run):
         pictures.append(chart("stress_path", "Stress path: mean stress and deviator of the stresses along x, y and z. A specimen whose "
                               "sides are free follows the dashed line. Stress on the sides moves the path away from it. "

@@ -137,15 +137,15 @@ def colour_bar(axes, colours, norm, label):
     scale.grid(False)
 
 
-def above(axes, x, words):
-    """Words over the axes."""
-    axes.annotate(words, (x, 1), xycoords=("data", "axes fraction"), ha="center", va="bottom", fontsize=8)
+def above(axes, x, words, **more):
+    """Words over the axes; inside at their top with va="top"."""
+    axes.annotate(words, (x, 1), xycoords=("data", "axes fraction"), fontsize=8, **{"ha": "center", "va": "bottom", **more})
 
 
 def span(axes, start, end, words=""):
-    """A grey stretch along x, with words at its top."""
+    """A grey stretch along x, with words inside at its top."""
     axes.axvspan(start, end, color=PALE, zorder=0)
-    above(axes, (start + end) / 2, words)
+    above(axes, start, words, ha="left", va="top")
 
 
 def scatter_bars(axes, x, low, high, colour):

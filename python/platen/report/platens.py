@@ -126,7 +126,7 @@ def _over_time(axes, run, title, words=False):
         span(axes, run.h["time_s"][0] * MS, run.h["time_s"][run.zero] * MS, "consolidation" if words else "")
     axes.axvline(run.peak_time * MS, color=GREY, lw=0.8)
     if words:
-        above(axes, run.peak_time * MS, run.peak_words)
+        above(axes, run.peak_time * MS, run.peak_words, va="top", bbox={"fc": "w", "ec": "none", "pad": 1})
     axes.set(xlabel="Time (ms)", ylabel=title, xlim=(0, run.end_time * MS))
 
 
@@ -160,7 +160,7 @@ def friction_work(axes, run):
         if run.has(f"friction_work_{side}_j"):
             axes.plot(run.h["time_s"] * MS, run.h[f"friction_work_{side}_j"], label=side, **SIDES[side].look)
     if run.has("friction_work_j"):
-        axes.legend(handles=axes.plot(run.h["time_s"] * MS, run.h["friction_work_j"], color=BLACK, label="platens and grains"),
+        axes.legend(handles=axes.plot(run.h["time_s"] * MS, run.h["friction_work_j"], color=BLACK, label="platens and spheres"),
                     loc="upper left")
     _over_time(axes, run, "Work (J)")
 

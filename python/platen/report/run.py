@@ -210,10 +210,10 @@ class TestRun(Run, Results):
     """A platen.Run as a test. All times in s, stresses in Pa, strains as fractions, compression positive.
 
     h: its history. axis: that is loaded, 0 ... 2; strain: between the platens along it, one a row. zero: the row at the end of
-    consolidation, from which strains count; rows: from it on; goes_back: whether the strain does, as in unloading. peak_row, peak_time, peak_stress; peak_reached: whether it went over
-    its peak, None where the summary does not say; peak_words: "peak", or "largest stress" where that is no strength. fall_time: of the
-    fall to 0.8 of the peak, None where it did not come. end_time. pattern_time, pattern_words: when the crack pattern is judged, at the
-    fall, or at the end. remarks: what its files lack.
+    consolidation, from which strains count; rows: from it on; goes_back: whether the strain does, as in unloading. peak_row, peak_time,
+    peak_stress; peak_reached: whether it went over its peak, None where the summary does not say; peak_words: "peak", or "largest stress"
+    where that is no strength. fall_time: of the fall to 0.8 of the peak, None where it did not come. end_time. pattern_time,
+    pattern_words: when the crack pattern is judged, at the fall, or at the end. remarks: what its files lack.
     """
 
     __test__ = False  # no test of pytest
