@@ -100,6 +100,8 @@ class OfARun(InRun):
         found = cracks._density(TestRun(self.path))
         self.assertTrue(found.is_share)
         self.assertLessEqual(numpy.nanmax(found.values), 1)
+        image = house.figure_of(cracks.pictures_of_cracks(TestRun(self.path))[2]).axes[0].images[0]
+        self.assertAlmostEqual(image.norm.vmax, numpy.nanmax(found.values))
         height = (numpy.arange(len(found.values)) + 0.5) / len(found.values)
         self.assertGreater(numpy.nansum(found.values[abs(height - 0.5) < 0.2]), 0)
         self.assertEqual(numpy.nansum(found.values[abs(height - 0.5) > 0.35]), 0)

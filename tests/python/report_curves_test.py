@@ -120,6 +120,9 @@ class Curves(WithRuns):
         main, small = lines_of(picture)
         self.assertEqual(list(main), ["work of the platens", "elastic energy of bonds", "plastic work of bonds (yielding parallel bond)"])
         self.assertEqual(list(small), ["elastic energy of contacts", "residual"])
+        tiny = self.run_of({**columns, "contact_energy_j": [0, 1e-6, 2e-6], "energy_residual_j": [0, 0, 1e-6]}, name="tiny")
+        axes = house.figure_of(curves.pictures_of_curves(tiny)[1]).axes[1]
+        self.assertEqual((axes.get_ylabel(), axes.lines[0].get_ydata()[2]), ("Energy (mJ)", 2e-3))
         columns["contact_energy_j"] = [0, 1, 2]  # a fifth of the work
         main, small = lines_of(curves.pictures_of_curves(self.run_of(columns, name="other"))[1])
         self.assertIn("elastic energy of contacts", main)

@@ -239,6 +239,11 @@ class Pictures(InRun):
             rows = specimen.half(one.spheres(time))
             self.assertAlmostEqual(axes.get_xlim()[1], 1e3 * specimen.top_of(one.spheres(time).outward[rows]))
         self.assertEqual(len(bars), 2)
+        before = house.figure_of(found["specimen_inside"]).axes[0]
+        self.assertEqual([text.get_text() for text in before.texts], ["Displacement (mm):\nzero everywhere"])
+        small = one.start._replace(position=one.start.initial + [0, 0, 4e-6])
+        one.spheres = lambda time: small
+        self.assertEqual(house.figure_of(found["specimen_inside"]).axes[1].child_axes[0].get_xlabel(), "Displacement (µm)")
 
 
 if __name__ == "__main__":

@@ -107,14 +107,14 @@ def density_map(axes, run):
     """Broken bonds over height and distance from the axis; the left half mirrors the right."""
     found, extent = _density(run), run.extent
     values = found.values if found.is_share else found.values * 1e-6
-    norm = Normalize(0, 1 if found.is_share else values.max() or 1)
+    norm = Normalize(0, max(0.1, numpy.nanmax(values, initial=0)) if found.is_share else values.max() or 1)
     half_width = extent.half_width * MM
     axes.imshow(numpy.hstack([values[:, ::-1], values]), DAMAGE, norm, aspect="auto", origin="lower",
                 extent=(-half_width, half_width, 0, extent.height * MM))
     axes.grid(False)
     axes.xaxis.set_major_formatter(lambda x, _: f"{abs(x):g}")
     axes.set(xlabel=f"Distance from the {'plane x = 0' if extent.is_plane else 'axis'} (mm)", ylabel="Height (mm)")
-    colour_bar(axes, DAMAGE, norm, "Broken fraction of the bonds" if found.is_share else "Broken bonds per cm³")
+    colour_bar(axes, DAMAGE, norm, "Broken fraction\nof the bonds" if found.is_share else "Broken bonds per cm³")
 
 
 def scatter_of_rose(area, bins):

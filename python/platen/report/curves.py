@@ -23,6 +23,7 @@ SMALL = (("contact_energy_j", "elastic energy of contacts", SKY, "-"),
          ("body_energy_j", "elastic energy of platens, sleeve and machine", GREEN, "-"), ("kinetic_energy_j", "kinetic energy", "#882255", "--"))
 RESIDUAL = ("energy_residual_j", "residual", BLACK, "--")
 MAIN_SHARE, SMALL_SHARE = 0.01, 0.05
+_SMALL_JOULES = 0.01  # below it axes have mJ
 _MOST_OPEN = 10  # of what it was at the peak
 _STAGE_COLOURS = (*CYCLE, "#882255", "#999933", "#332288")  # after ten they come again, dashed
 _ASKED = ("Axial", "Lateral", "Lateral x", "Lateral y", "Bottom", "Top", "Left", "Right", "Front", "Back")
@@ -130,12 +131,13 @@ def _terms(run, main):
 
 def energies(axes, run, main=True):
     """Over strain (time, where that goes back), where the work of the platens went; with main=False its small terms and the residual."""
-    law = run.entry("Effects/Bond")
-    for column, words, colour, line in _terms(run, main):
+    law, terms = run.entry("Effects/Bond"), _terms(run, main)
+    small = max(numpy.nanmax(numpy.abs(run.h[column]), initial=0) for column, *_ in terms) < _SMALL_JOULES
+    for column, words, colour, line in terms:
         label = words.format(law=law or "all laws", fracture=FRACTURE.get(law, "broken bonds"))
-        axes.plot(_along(run, [run]), run.h[column], line, color=colour, label=label)
+        axes.plot(_along(run, [run]), run.h[column] * (1e3 if small else 1), line, color=colour, label=label)
     axes.locator_params(axis="y", nbins=6)
-    titled(axes, _along_title(run), "Energy (J)", 2)
+    titled(axes, _along_title(run), "Energy (mJ)" if small else "Energy (J)", 2)
 
 
 # ---- discs, bars, cells

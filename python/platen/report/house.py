@@ -129,7 +129,8 @@ def legend_above(axes, **more):
 def colour_bar(axes, colours, norm, label):
     """A scale beside the axes: the last panel of a Picture with `bar`."""
     if axes.get_aspect() == "auto":
-        scale = axes.inset_axes([1.03, 0.18, 0.045, 0.64])
+        inch = axes.figure.dpi / axes.bbox.width
+        scale = axes.inset_axes([1 + 0.12 * inch, 0.18, 0.13 * inch, 0.64])
     else:
         box, width = axes.get_position(), axes.figure.get_figwidth()
         scale = axes.figure.add_axes([1 - 0.82 / width, box.y0 + 0.18 * box.height, 0.13 / width, 0.64 * box.height])

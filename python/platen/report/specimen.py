@@ -69,11 +69,13 @@ def field(axes, run, time, values, label, title="", norm=None, colours=VIRIDIS, 
             colour_bar(axes, colours, norm, label)
         return
     top = top_of(values if more.get("whole") else values[half(run.spheres(time))])
+    if 0 < top < 0.01:  # numbers of the scale stay short
+        values, top, label = values * 1e3, top * 1e3, label.replace("(mm)", "(µm)")
     norm = Normalize(0, top or 1)
     draw(axes, run, time, colours(norm(values))[:, :3], title, foot=FOOT, **more)
     inch = axes.figure.dpi / axes.bbox.height
     if top == 0:
-        axes.text(0.5, 0.02 * inch, f"{label}: not above 0", transform=axes.transAxes, ha="center", va="bottom")
+        axes.text(0.5, 0.02 * inch, f"{label}:\n{'not above 0' if values.any() else 'zero everywhere'}", transform=axes.transAxes, ha="center", va="bottom")
     else:
         axes.figure.colorbar(ScalarMappable(norm, colours), cax=axes.inset_axes([0.2, 0.32 * inch, 0.6, 0.1 * inch]),
                              orientation="horizontal", label=label, extend="max", ticks=MaxNLocator(3))
@@ -175,11 +177,11 @@ def cones(axes, run, time, title="", **more):
             places = numpy.insert(section(cone.turned(turn), base, extent.half_width), 1, 0, axis=1) + turn @ carried(cone, spheres)
             for colour, width in (("white", 3.5), ("black", 1.5)):
                 scene.line(places, color=colour, lw=width)
-            names = ("half-angle ", "r0 = ", "confidence\n") if axes.bbox.width > 2.5 * axes.figure.dpi else ("", "", "")
+            names = ("half-angle ", "r0 = ", "confidence ") if axes.bbox.width > 2.5 * axes.figure.dpi else ("", "", "")
             values = (f"{math.degrees(cone.half_angle):.0f}°", f"{cone.base:.2f}", f"{cone.confidence:.2f}")
-            words = "\n".join(map(str.__add__, names, values))
-        height = float(seen([[0, 0, base + sign * 0.09 * extent.height]])[1])
-        axes.text(0.01, height, words, transform=axes.get_yaxis_transform(), va="center", fontsize=8, path_effects=HALO)
+            words = ", ".join(map(str.__add__, names, values))
+        height = float(seen([[0, 0, base - sign * 0.05 * max(extent.height, 2 * extent.half_width)]])[1])
+        axes.text(0, height, words, ha="center", va="center", fontsize=8, path_effects=HALO)  # on the platen, beside the outline
 
 
 def cones_caption(run):
