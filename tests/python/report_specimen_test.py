@@ -127,6 +127,21 @@ class Images(unittest.TestCase):
         with self.assertRaisesRegex(InputError, "x: holds other elements than hexahedra"):
             spheres.surface(Grid(points, {}, {}, {}, numpy.arange(4), numpy.arange(1, 5)), "x")
 
+    def test_a_round_platen_of_few_elements_is_drawn_round(self):
+        turn = numpy.pi / 8 * numpy.arange(16)
+        rim = 0.02 * numpy.column_stack([numpy.cos(turn), numpy.sin(turn)])
+        cells = [[0, 1 + k, 1 + (k + 1) % 16, 1 + (k + 2) % 16] for k in range(0, 16, 2)]
+        points = numpy.vstack([numpy.insert(numpy.vstack([[0, 0], rim]), 2, z, axis=1) for z in (0.04, 0.06)])
+        grid = Grid(points, {}, {}, {}, numpy.hstack([cells, numpy.add(cells, 17)]).ravel(), 8 * numpy.arange(1, 9))
+        self.assertEqual(spheres.boxes_of(grid, "x"), [[-0.02, -0.02, 0.04, 0.02, 0.02, 0.06, 1]])
+        corners, faces = spheres.cylinder(spheres.boxes_of(grid, "x")[0])
+        a, b, c, d = corners[faces].transpose(1, 0, 2)
+        flux = (numpy.cross(c - a, d - b) / 2 * (a + b + c + d) / 4).sum() / 3  # the volume, where all faces look outwards
+        self.assertAlmostEqual(flux / (math.pi * 0.02**2 * 0.02), 1, delta=2e-3)
+        image, _ = picture_of(lambda s: s.bodies(grid, "x"))
+        shades = numpy.unique(image.reshape(-1, 3), axis=0)
+        self.assertGreater(len(shades), 40, "a polygon of 16 sides shows nine shades and those of its edges")
+
     def test_a_cut_body_is_filled_at_the_cut_and_hides_what_is_behind_it_alone(self):
         block = [brick((-0.01, -0.02, 0.04), (0.01, 0.02, 0.06)), brick((-0.02, -0.03, 0.03), (0.02, -0.025, 0.07))]
         grid = Grid(numpy.vstack(block), {}, {}, {}, numpy.arange(16), numpy.array([8, 16]))
