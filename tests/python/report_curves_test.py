@@ -173,6 +173,7 @@ class Acoustic(WithRuns):
         run = self.heard()
         self.assertEqual(curves.power_law(run, False), (None, "3 events"))
         self.assertIn("No b-value after the peak: 3 events.", curves.pictures_of_events(run)[0].caption)
+        self.assertIn("M = (log10(E/J) - 4.8)/1.5", curves.pictures_of_events(run)[0].caption)
         self.assertEqual(curves.power_law(self.run_of({"z": [0, 1]}, name="none"), True), (None, ""))
 
     def test_a_law_is_drawn_over_its_range_alone(self):
