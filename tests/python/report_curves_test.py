@@ -86,6 +86,9 @@ class Curves(WithRuns):
         numpy.testing.assert_allclose(axes[0].lines[3].get_xydata(), [[0, 0], [-0.1, 1], [-0.2, 2]])
         numpy.testing.assert_allclose(axes[2].lines[0].get_xydata(), [[0, 0], [1, 1], [2, -5]])
         self.assertEqual(axes[0].get_xlim(), axes[2].get_xlim())  # one strain axis
+        told = json.loads(house._hover(axes[0].figure, "a"))
+        self.assertEqual([panel["units"] for panel in told], [[" mm/m", " MPa"], [" mm/m", ""], [" mm/m", " mm/m"]])
+        self.assertEqual(told[0]["curves"][0][1], "axial, between platens")
         self.assertLessEqual(axes[0].get_xlim()[1], 1.5 * 2)  # the largest strains are cut off
 
     def test_a_tension_test_is_drawn_with_tension_positive(self):
@@ -191,7 +194,8 @@ class Costs(WithRuns):
         run = self.run_of({"z": [0, 1]}, {"wall_seconds": 20.0, "setup_seconds": 4.0,
                                           "stage_seconds": {"motion": 2.0, "bonds": 9.0, "stable_step": 1.5, "bodies": 0.0}})
         found = curves.costs_of(run)
-        self.assertEqual(found[:4], [("bonds", 9, True), ("setting up", 4, False), ("motion", 2, True), ("stable step", 1.5, True)])
+        self.assertEqual(found[:4], [("forces of bonds", 9, True), ("setting up", 4, False), ("motion of the spheres", 2, True),
+                                     ("choice of the time step", 1.5, True)])
         self.assertEqual((found[4][0], sum(cost[1] for cost in found)), ("other", 20))
 
     def test_the_machine_is_that_of_the_log(self):

@@ -455,12 +455,17 @@ def pictures_of_events(run):
 
 
 # ---- computing time
+_PARTS = {"motion": "motion of the spheres", "search": "search for neighbours", "bonds": "forces of bonds",
+          "contacts": "contacts of spheres", "surfaces": "contacts with platens", "bodies": "platens, sleeve, machine", "stable_step": "choice of the time step",
+          "measures": "stresses and strains", "output": "writing of files"}
+
+
 def costs_of(run):
     """[(name, seconds, whether it is a part of the time steps), ...]: the largest first, the rest last; [] of a run that has not ended."""
     parts = run.info.get("stage_seconds")
     if not isinstance(parts, dict):
         return []
-    found = [(name.replace("_", " "), number_in(parts, name), True) for name in parts]
+    found = [(_PARTS.get(name, name), number_in(parts, name), True) for name in parts]
     found.append(("setting up", number_in(run.info, "setup_seconds"), False))
     found = sorted((cost for cost in found if cost[1] > 0), key=lambda cost: -cost[1])
     rest = number_in(run.info, "wall_seconds") - sum(cost[1] for cost in found)
@@ -491,4 +496,4 @@ def pictures_of_costs(run):
     """The Pictures of the section "Computing time"; none where the summary does not say it."""
     count, words = len(costs_of(run)), machine_words(run)
     caption = "Parts of the computing time. Blue: of the time steps; grey: outside them." + f" {words}." * bool(words)
-    return [chart("seconds", caption, costs, run=run, heights=0.4 + 0.26 * count, margin=1.2)] if count else []
+    return [chart("seconds", caption, costs, run=run, heights=0.4 + 0.26 * count, margin=1.75)] if count else []

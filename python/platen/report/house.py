@@ -9,6 +9,7 @@ import io
 import json
 import math
 import os
+import re
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from multiprocessing import get_context
@@ -180,8 +181,13 @@ def plain_decades(axis):
 
 
 # ---- files
+def _unit(title):
+    """" MPa", of "Axial stress (MPa)"; "" where it has none."""
+    return "".join(f" {unit}" for unit in re.findall(r"\(([^\s()]+)\)", title)[-1:])
+
+
 def _hover(figure, name):
-    """What the page's script needs to read values off a chart: boxes of axes in SVG's units, limits, labelled curves."""
+    """What the page's script needs to read values off a chart: boxes of axes in SVG's units, units, limits, labelled curves."""
     width, height = 72 * figure.get_figwidth(), 72 * figure.get_figheight()
     found = []
     for k, axes in enumerate(figure.axes):
@@ -189,13 +195,13 @@ def _hover(figure, name):
         for n, line in enumerate(axes.lines):
             if len(line.get_xdata()) > 1 and line.get_transform() == axes.transData:
                 line.set_gid(f"{name}-{k}-{n}")
-                label = line.get_label()
+                label = re.split(": (?:peak|largest stress) ", line.get_label())[0]  # values stand behind it
                 curves.append([line.get_gid(), "" if label.startswith("_") else label])
         if curves:
-            box = axes.get_position()
+            box, of_x = axes.get_position(), (other.get_xlabel() for other in axes.get_shared_x_axes().get_siblings(axes))
             found.append({"box": [round(v, 2) for v in (box.x0 * width, (1 - box.y1) * height, box.x1 * width, (1 - box.y0) * height)],
-                          "x": axes.get_xlim(), "y": axes.get_ylim(), "log": [axes.get_xscale() == "log", axes.get_yscale() == "log"],
-                          "curves": curves})
+                          "units": [_unit(next(filter(None, of_x), "")), _unit(axes.get_ylabel())], "x": axes.get_xlim(), "y": axes.get_ylim(),
+                          "log": [axes.get_xscale() == "log", axes.get_yscale() == "log"], "curves": curves})
     return json.dumps(found)
 
 
