@@ -122,6 +122,9 @@ class OfARun(InRun):
         self.assertEqual(titles("crack_times")[0], f"{early} before the largest stress (both halves)")
         run.info["crack_rose"] = [1.0, 1.0]
         self.assertEqual([p.name for p in cracks.pictures_of_cracks(run)][3:], ["crack_rose"])
+        for extent, words in ((CYLINDER, "lies along"), (Extent("box", 0.05, 0.01, 0, 0.02), "is vertical")):
+            run.extent = extent
+            self.assertIn(f"At 90 degrees a crack {words}", cracks.pictures_of_cracks(run)[3].caption)
         run.info["crack_rose"] = [None, None]
         self.assertEqual(len(cracks.pictures_of_cracks(run)), 3)
         (self.path / "cracks.csv").unlink()

@@ -90,6 +90,9 @@ class Curves(WithRuns):
         self.assertEqual([panel["units"] for panel in told], [[" mm/m", " MPa"], [" mm/m", ""], [" mm/m", " mm/m"]])
         self.assertEqual(told[0]["curves"][0][1], "axial, between platens")
         self.assertLessEqual(axes[0].get_xlim()[1], 1.5 * 2)  # the largest strains are cut off
+        self.assertNotIn("cut off", curves.pictures_of_curves(run)[0].caption)
+        wide = self.run_of({"z": [0, MPA, 2 * MPA], "lateral_strain": [0, -1e-4, -3e-3]}, name="wide")
+        self.assertIn("cut off", curves.pictures_of_curves(wide)[0].caption)
 
     def test_a_tension_test_is_drawn_with_tension_positive(self):
         run = self.run_of({"z": [0, -2 * MPA, -MPA], "axial_strain_platen": [0, -1e-4, -3e-4], "volumetric_strain": [0, -5e-5, -2e-4],
@@ -126,9 +129,13 @@ class Curves(WithRuns):
         tiny = self.run_of({**columns, "contact_energy_j": [0, 1e-6, 2e-6], "energy_residual_j": [0, 0, 1e-6]}, name="tiny")
         axes = house.figure_of(curves.pictures_of_curves(tiny)[1]).axes[1]
         self.assertEqual((axes.get_ylabel(), axes.lines[0].get_ydata()[2]), ("Energy (mJ)", 2e-3))
-        columns["contact_energy_j"] = [0, 1, 2]  # a fifth of the work
+        columns["contact_energy_j"], columns["body_energy_j"] = [0, 1, 2], [0, 0.1, 0.2]  # a fifth of the work
         main, small = lines_of(curves.pictures_of_curves(self.run_of(columns, name="other"))[1])
         self.assertIn("elastic energy of contacts", main)
+        for machine, bodies in (("", "platens"), ("1", "platens and machine")):
+            scene = f"subsection Platens\nset Kind = deformable\nset Machine stiffness = {machine}\nend\n"
+            run = self.run_of(columns, scene=scene, name=bodies)
+            self.assertIn(f"elastic energy of {bodies}", lines_of(curves.pictures_of_curves(run)[1])[1])
 
     def test_damage_is_not_called_broken_bonds_where_the_law_softens(self):
         columns = {"z": [0, 1, 2], "boundary_work_j": [0, 5, 10], "fracture_work_j": [0, 1, 3]}

@@ -188,6 +188,9 @@ class OneSphere(InFolder):
         scales = [axes.child_axes[0].get_ylim() for axes in panels]
         numpy.testing.assert_allclose(numpy.mean(scales, axis=1), [7, 3.5], rtol=1e-6)  # MPa, of the platen
         self.assertIn("White: neither specimen nor platen", picture.caption)
+        self.assertNotIn("rigid", picture.caption)
+        del run.grid("platens", run.peak_time).point_data["stress"]
+        self.assertIn("Grey: rigid platens", fields.picture_of_stress_flow(run).caption)
 
 
 if __name__ == "__main__":

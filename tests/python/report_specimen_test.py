@@ -254,6 +254,16 @@ class Pictures(InRun):
             rows = specimen.half(one.spheres(time))
             self.assertAlmostEqual(axes.get_xlim()[1], 1e3 * specimen.top_of(one.spheres(time).outward[rows]))
         self.assertEqual(len(bars), 2)
+        self.assertNotIn("Cones are dark", found["outward_displacement"].caption)
+        self.assertIn("cut at y = 0", specimen.cones_caption(one))
+        told = {"half_angle_deg": 45, "confidence": 0.5, "base_ratio": 0.9, "apex_m": [0.001, 0, 0.07], "axis": [0, 0, 1]}
+        one.info.update({"dead_zone_top": {"base_ratio": 0.9}, "cone_top": told})
+        self.assertIn("Cones are dark", {p.name: p for p in specimen.pictures_of_specimen(one)}["outward_displacement"].caption)
+        self.assertIn("cut along the axes of the cones", specimen.cones_caption(one))
+        self.assertIn("Green: the largest", found["fragments"].caption)
+        pieces = one.start._replace(fragment=numpy.arange(len(one.start.radius)))
+        one.spheres = lambda time: pieces
+        self.assertNotIn("Green", {p.name: p for p in specimen.pictures_of_specimen(one)}["fragments"].caption)
         before = house.figure_of(found["specimen_inside"]).axes[0]
         self.assertEqual([text.get_text() for text in before.texts], ["Displacement (mm):\nzero everywhere"])
         small = one.start._replace(position=one.start.initial + [0, 0, 4e-6])

@@ -123,13 +123,17 @@ def scatter_of_rose(area, bins):
     return numpy.sqrt((1 - p) / p * (area**2).sum()) / area.sum()
 
 
+def _ways(run):  # of cracks whose normals are along and across the axis: a bar lies
+    return ("is horizontal", "is vertical") if run.extent.form == "box" and run.extent.is_plane else ("lies across", "lies along")
+
+
 def rose(axes, run):
     """Area of cracks by the angle of their normals to the axis, over that of cracks that face all ways alike."""
     values, area = numpy.array(run.info["crack_rose"], float), run.table("cracks")["area_m2"]
     step, k = 90 / len(values), numpy.arange(len(values))
     names = [f"{step * j:.0f} to {step * (j + 1):.0f}°" for j in k]
-    names[0] += ", crack lies across"
-    names[-1] += ", crack lies along"
+    names[0] += f", crack {_ways(run)[0]}"
+    names[-1] += f", crack {_ways(run)[1]}"
     texts = [f"{value:.2f}" for value in values]
     bars(axes, names, values, texts, "Area of cracks over that of cracks in random directions", "#777777", mark=1)
     if len(area):
@@ -159,6 +163,7 @@ def pictures_of_cracks(run):
     if isinstance(run.info.get("crack_rose"), list) and run.info["crack_rose"][:1] not in ([], [None]):
         pictures.append(chart(
             "crack_rose", "The angle between the normal of a crack and the axis of the specimen, all of the run. Beyond the line there are "
-            "more cracks than in random directions. At 90 degrees cracks run along the specimen: it splits. A bar that ends in the "
-            "blue band (two standard deviations) may differ from the line by chance.", rose, run=run, heights=3, margin=1.9, titles=True))
+            f"more cracks than in random directions. At 90 degrees a crack {_ways(run)[1].replace('along', 'along the axis')}. A bar that "
+            "ends in the blue band (two standard deviations) may differ from the line by chance.", rose, run=run,
+            heights=3, margin=2.05, titles=True))
     return pictures

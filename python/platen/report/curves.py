@@ -20,9 +20,10 @@ MAIN = (("boundary_work_j", "work of the platens", BLACK, "-"), ("bond_energy_j"
         ("damping_work_j", "damping", GREY, "-"), ("plastic_work_j", "plastic work of bonds ({law})", PURPLE, "-"))
 FRACTURE = {"elasto damage plastic": "damage of bonds", "facet": "damage and slip of bonds"}  # by law; else broken bonds
 SMALL = (("contact_energy_j", "elastic energy of contacts", SKY, "-"),
-         ("body_energy_j", "elastic energy of platens, sleeve and machine", GREEN, "-"), ("kinetic_energy_j", "kinetic energy", "#882255", "--"))
+         ("body_energy_j", "elastic energy of {bodies}", GREEN, "-"), ("kinetic_energy_j", "kinetic energy", "#882255", "--"))
 RESIDUAL = ("energy_residual_j", "residual", BLACK, "--")
 MAIN_SHARE, SMALL_SHARE = 0.01, 0.05
+_LEFT, _RIGHT = 1.2, 1.5  # that strains are drawn to, over the largest one between the platens
 _SMALL_JOULES = 0.01  # below it axes have mJ
 _MOST_OPEN = 10  # of what it was at the peak
 _STAGE_COLOURS = (*CYCLE, "#882255", "#999933", "#332288")  # after ten they come again, dashed
@@ -87,7 +88,7 @@ def stress(axes, runs):
         furthest = max(furthest, float(numpy.nanmax(strain[run.rows])))
     if furthest > 0:  # what opens once it has failed is cut off
         low, high = axes.get_xlim()
-        axes.set_xlim(max(low, -1.2 * furthest), min(high, 1.5 * furthest))
+        axes.set_xlim(max(low, -_LEFT * furthest), min(high, _RIGHT * furthest))
     titled(axes, _strain_label(runs), runs[0].stress_title + ", tension positive" * (sign < 0))
 
 
@@ -132,9 +133,11 @@ def _terms(run, main):
 def energies(axes, run, main=True):
     """Over strain (time, where that goes back), where the work of the platens went; with main=False its small terms and the residual."""
     law, terms = run.entry("Effects/Bond"), _terms(run, main)
+    bodies = [name for name, there in (("platens", "deformable" in run.entries.values()), ("sleeve", run.series("sleeve")),
+                                       ("machine", run.entry("Platens/Machine stiffness"))) if there]
     small = max(numpy.nanmax(numpy.abs(run.h[column]), initial=0) for column, *_ in terms) < _SMALL_JOULES
     for column, words, colour, line in terms:
-        label = words.format(law=law or "all laws", fracture=FRACTURE.get(law, "broken bonds"))
+        label = words.format(law=law or "all laws", fracture=FRACTURE.get(law, "broken bonds"), bodies=" and ".join(bodies) or "platens")
         axes.plot(_along(run, [run]), run.h[column] * (1e3 if small else 1), line, color=colour, label=label)
     axes.locator_params(axis="y", nbins=6)
     titled(axes, _along_title(run), "Energy (mJ)" if small else "Energy (J)", 2)
@@ -192,7 +195,12 @@ def pictures_of_curves(run, laboratory=None):
                     f"are negative where the specimen {'widens' if _sign([run]) > 0 else 'narrows'}.")
     if run.has("volumetric_strain"):
         caption += " Where the volume begins to grow, cracks open."
-    pictures = [stress_strain([run], "stress_strain", caption + f" Dots: the {run.peak_words}. The largest strains are cut off.")]
+    columns = ("axial_strain_gauge", "lateral_strain") if run.axis == 2 else STRAIN
+    strains = _sign([run]) * numpy.array([run.strain, *(run.since(column) for column in columns if run.has(column))])[:, run.rows]
+    furthest = numpy.nanmax(strains[0])
+    if furthest > 0 and ((strains < -_LEFT * furthest) | (strains > _RIGHT * furthest)).any():
+        caption += " The largest strains are cut off."
+    pictures = [stress_strain([run], "stress_strain", f"{caption} Dots: the {run.peak_words}.")]
     if run.has("opening_m") or run.has("deflection_m"):
         words = ("Nominal flexural stress over the deflection of the bar at mid-span" if run.has("deflection_m") else
                  "Splitting stress over the widening of the disc across the loaded diameter")

@@ -296,9 +296,10 @@ def picture_of_stress_flow(run):
     height = min(4.6, 2.4 * ratio) if tall else 5.6 * ratio
     width = 0.72 + 0.95 + (0.72 + 2 * height / ratio if tall else 5.6)
     draws = [partial(stress_flow, run=run), partial(stress_flow, run=run, shear=True, beside=tall)]
+    rigid = bool(run.series("platens")) and "stress" not in run.grid("platens", run.peak_time).point_data
     caption = (f"Stress in the plane y = {_FINENESS * radius:.2g} mm {run.near_peak('specimen')}: vertical stress, compression positive, "
                f"and the largest shear stress; x points to the left. Each value is an average over the spheres within {_REACH_IN_PICTURES * radius:.2g} mm. Each "
                "colour scale covers 96 % of the values; smaller and larger ones have the colours of its ends. White: neither specimen nor "
-               "platen. Grey: rigid platens, which have no stress.")
+               f"platen.{' Grey: rigid platens, which have no stress.' * rigid}")
     rows = [draws] if tall else [[draw] for draw in draws]
     return Picture("stress_flow", caption, rows, height, width, raster=True, bar=True, titles=True)

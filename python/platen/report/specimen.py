@@ -20,8 +20,7 @@ FRAGMENTS = numpy.array([to_rgb(c) for c in ("#e1e1e1", GREEN, PURPLE, SKY, "#f0
 WITH_PLATENS = numpy.array([to_rgb(c) for c in ("#e1e1e1", BLUE, ORANGE)])
 SMALLEST = 30  # spheres of a fragment that has a colour
 _DAMAGE = "coloured by the broken fraction of the bonds of each sphere. Grey: no bond is broken."
-_FRAGMENTS = (f"Each colour is a fragment of {SMALLEST} or more spheres that intact bonds connect; green is the largest. Grey: "
-              "smaller fragments.")
+_FRAGMENTS = f"Each colour is a fragment of {SMALLEST} or more spheres that intact bonds connect. Grey: smaller fragments."
 FOOT = 0.48  # inches, of a colour bar below a panel
 
 
@@ -185,15 +184,17 @@ def cones(axes, run, time, title="", **more):
 
 
 def cones_caption(run):
-    text = ""
+    text, found = "", False
     for final, when in ((False, run.pattern_words), (True, "the end")):
         both = {end: cone_of(run, end, final) for end in ("top", "bottom")}
         if any(cone is not None for cone in both.values()):
             words = {end: cone.words if cone else "not measured" if cone is None else "none" for end, cone in both.items()}
+            found |= any(both.values())
             text += f" Cones at {when}, half-angles: on the top platen {words['top']}, on the bottom platen {words['bottom']}."
-    return ("Half specimen, cut along the axes of the cones. Blue spheres have moved with the bottom platen since the "
-            f"{run.peak_words}, orange ones with the top platen.{text} Outlines: the cones fitted to these spheres, with the measured "
-            "radius at the platen: r0 times that of the specimen.")
+    cut = "along the axes of the cones" if found and run.extent.form == "cylinder" else "at y = 0"
+    return (f"Half specimen, cut {cut}. Blue spheres have moved with the bottom platen since the {run.peak_words}, orange ones with the "
+            f"top platen.{text}" + found * (" Outlines: the cones fitted to these spheres, with the measured radius at the platen: r0 "
+                                            "times that of the specimen."))
 
 
 def _with_cones(shown):
@@ -220,17 +221,19 @@ def pictures_of_specimen(run):
     moments = [(run, run.start.time, "before the test"), (run, run.peak_time, run.near_peak("specimen")), end]
     judged = [end] if run.fall_time is None else [(run, run.fall_time, f"at {run.pattern_words}"), end]
     scales = "Each panel has its own scale. The largest 5 % have the last colour."
+    dark = any(cone_of(run, side, final) for side in ("top", "bottom") for final in (False, True))
+    with_green = any((fragment_colours(run.spheres(time)) == 1).any() for _, time, _ in judged)
     aside = " The platen in front of it is not drawn." if has_further_sides(run) else ""
     return [
         *_row("specimen_outside", f"The specimen from outside, along y and a little from above; x points to the left.{aside} Colours: "
               f"displacement of each sphere. {scales}", displacement, moments, foot=FOOT, whole=True),
         *_row("specimen_inside", f"The same specimen cut in half at y = 0. {scales}", displacement, moments, foot=FOOT),
         *_row("outward_displacement", "Half specimen, coloured by the displacement of each sphere away from the "
-              f"{'plane x = 0' if run.extent.is_plane else 'axis'}. Cones are dark; the material that they push aside is light. Inward "
-              f"displacement has the colour of 0. {scales}", outward_displacement, judged, foot=FOOT),
+              f"{'plane x = 0' if run.extent.is_plane else 'axis'}.{' Cones are dark; the material that they push aside is light.' * dark} "
+              f"Inward displacement has the colour of 0. {scales}", outward_displacement, judged, foot=FOOT),
         *_row("damage", f"Half specimen, {_DAMAGE}", damage, judged, True),
         *_row("cones", cones_caption(run), cones, _with_cones(judged)),
-        *_row("fragments", f"Half specimen. {_FRAGMENTS}", fragments, judged)]
+        *_row("fragments", f"Half specimen. {_FRAGMENTS}{' Green: the largest.' * with_green}", fragments, judged)]
 
 
 def comparison(runs):
