@@ -117,7 +117,7 @@ class Curves(WithRuns):
             numpy.testing.assert_allclose(axes.lines[0].get_xdata(), [0, 1e3, 2e3, 3e3])  # ms
         self.assertEqual([axes.get_xlabel() for axes in (stress, bonds, volume, energies)],
                          ["Strain (mm/m), compression positive", "", "Time (ms)", "Time (ms)"])
-        self.assertFalse(self.run_of({**columns, "axial_strain_platen": [0, 1e-3, 0.96e-3, 2e-3]}, name="nearly").goes_back)
+        self.assertFalse(self.run_of({**columns, "axial_strain_platen": [0, 1e-3, 0.91e-3, 2e-3]}, name="nearly").goes_back)
 
     def test_plastic_work_is_named_by_its_law_and_what_is_zero_is_not_drawn(self):
         columns = {"z": [0, 1, 2], "boundary_work_j": [0, 5, 10], "bond_energy_j": [0, 4, 6], "plastic_work_j": [0, 1, 3],
