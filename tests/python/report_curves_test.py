@@ -39,7 +39,8 @@ class Moments(WithRuns):
     def test_the_largest_stress_is_a_peak_only_where_it_is_a_strength(self):
         stress = [0, 60, 100, 90, 70]
         for name, words, z, info in (("a", "peak", stress, {}), ("b", "largest stress", stress[:3], {}),
-                                     ("c", "peak", stress[:3], {"peak_reached": True}), ("d", "largest stress", stress, {"peak_reached": False}),
+                                     ("c", "peak", stress[:3], {"peak_reached": True}),
+                                     ("d", "largest stress", stress, {"peak_reached": False}),
                                      ("e", "largest stress", stress, {"peak_reached": True, "validity": {"strength_pa": ["too fast"]}})):
             run = self.run_of({"z": z}, info, name=name)
             label = list(lines_of(curves.pictures_of_curves(run)[0])[0])[0]
@@ -102,7 +103,8 @@ class Curves(WithRuns):
         numpy.testing.assert_allclose(above.lines[0].get_xydata(), [[0, 0], [0.1, 2], [0.3, 1]])
         numpy.testing.assert_allclose(volume.lines[0].get_xydata(), [[0, 0], [0.1, 0.05], [0.3, 0.2]])
         self.assertEqual(above.lines[0].get_label(), "axial, between platens: peak 2 MPa at 0.1 mm/m")
-        self.assertEqual((above.get_ylabel(), volume.get_xlabel()), ("Axial stress (MPa), tension positive", "Strain (mm/m), tension positive"))
+        self.assertEqual((above.get_ylabel(), volume.get_xlabel()),
+                         ("Axial stress (MPa), tension positive", "Strain (mm/m), tension positive"))
         numpy.testing.assert_allclose(lines_of(pictures[1])[0]["work of the platens"][:, 0], [0, 0.1, 0.3])
 
     def test_what_unloads_is_drawn_over_time(self):

@@ -185,7 +185,8 @@ class Pictures(Runs):
         self.assertEqual(friction.texts[2].get_va(), "top")  # in its chart, not between two
         numpy.testing.assert_allclose(drawn["platen_pressure"][0].lines[0].get_xydata()[0], [1e3 * RADIUS * math.sqrt(0.1), 30], rtol=1e-6)
         self.assertEqual([text.get_text() for text in drawn["stick_slip"][1].get_legend().get_texts()], ["top: 800 stick", "1200 slide"])
-        greased = {p.name: p for p in platens.pictures_of_ends(self.run_of({"Friction static": 0, "Top/Friction static": 0.1}, of_ends=ends()))}
+        half = self.run_of({"Friction static": 0, "Top/Friction static": 0.1}, of_ends=ends())
+        greased = {p.name: p for p in platens.pictures_of_ends(half)}
         pressure, shear = ([bar.get_label() for bar in axes.containers] for axes in house.figure_of(greased["platen_pressure"]).axes)
         self.assertEqual((pressure, shear), (["bottom platen", "top platen"], ["top platen"]))
         self.assertEqual(len(greased["stick_slip"].rows[0]), 1)

@@ -454,8 +454,8 @@ def pictures_of_events(run):
     """The Pictures of the section "Acoustic emission"; none where the run has no events with a magnitude."""
     if run.table("events") is None or "magnitude" not in run.events or not numpy.isfinite(run.events["magnitude"]).any():
         return []
-    caption = ("Cracks that are near in space and time count as one event, of magnitude M = (log10(E/J) - 4.8)/1.5 where they set the energy E "
-               "free. The number of events falls with their magnitude. Where it follows a power law, b is its slope (black line).")
+    caption = ("Cracks that are near in space and time count as one event, of magnitude M = (log10(E/J) - 4.8)/1.5 where they set the "
+               "energy E free. The number of events falls with their magnitude. Where it follows a power law, b is its slope (black line).")
     for before, words in ((True, "before"), (False, "after")):
         if reason := power_law(run, before)[1]:
             caption += f" No b-value {words} the {run.peak_words}: {reason}."
@@ -464,8 +464,8 @@ def pictures_of_events(run):
 
 # ---- computing time
 _PARTS = {"motion": "motion of the spheres", "search": "search for neighbours", "bonds": "forces of bonds",
-          "contacts": "contacts of spheres", "surfaces": "contacts with platens", "bodies": "platens, sleeve, machine", "stable_step": "choice of the time step",
-          "measures": "stresses and strains", "output": "writing of files"}
+          "contacts": "contacts of spheres", "surfaces": "contacts with platens", "bodies": "platens, sleeve, machine",
+          "stable_step": "choice of the time step", "measures": "stresses and strains", "output": "writing of files"}
 
 
 def costs_of(run):

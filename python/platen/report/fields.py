@@ -298,8 +298,8 @@ def picture_of_stress_flow(run):
     draws = [partial(stress_flow, run=run), partial(stress_flow, run=run, shear=True, beside=tall)]
     rigid = bool(run.series("platens")) and "stress" not in run.grid("platens", run.peak_time).point_data
     caption = (f"Stress in the plane y = {_FINENESS * radius:.2g} mm {run.near_peak('specimen')}: vertical stress, compression positive, "
-               f"and the largest shear stress; x points to the left. Each value is an average over the spheres within {_REACH_IN_PICTURES * radius:.2g} mm. Each "
-               "colour scale covers 96 % of the values; smaller and larger ones have the colours of its ends. White: neither specimen nor "
-               f"platen.{' Grey: rigid platens, which have no stress.' * rigid}")
+               f"and the largest shear stress; x points to the left. Each value is an average over the spheres within "
+               f"{_REACH_IN_PICTURES * radius:.2g} mm. Each colour scale covers 96 % of the values; smaller and larger ones have the "
+               f"colours of its ends. White: neither specimen nor platen.{' Grey: rigid platens, which have no stress.' * rigid}")
     rows = [draws] if tall else [[draw] for draw in draws]
     return Picture("stress_flow", caption, rows, height, width, raster=True, bar=True, titles=True)

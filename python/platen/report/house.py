@@ -200,8 +200,8 @@ def _hover(figure, name):
         if curves:
             box, of_x = axes.get_position(), (other.get_xlabel() for other in axes.get_shared_x_axes().get_siblings(axes))
             found.append({"box": [round(v, 2) for v in (box.x0 * width, (1 - box.y1) * height, box.x1 * width, (1 - box.y0) * height)],
-                          "units": [_unit(next(filter(None, of_x), "")), _unit(axes.get_ylabel())], "x": axes.get_xlim(), "y": axes.get_ylim(),
-                          "log": [axes.get_xscale() == "log", axes.get_yscale() == "log"], "curves": curves})
+                          "units": [_unit(next(filter(None, of_x), "")), _unit(axes.get_ylabel())], "x": axes.get_xlim(),
+                          "y": axes.get_ylim(), "log": [axes.get_xscale() == "log", axes.get_yscale() == "log"], "curves": curves})
     return json.dumps(found)
 
 

@@ -74,7 +74,8 @@ def field(axes, run, time, values, label, title="", norm=None, colours=VIRIDIS, 
     draw(axes, run, time, colours(norm(values))[:, :3], title, foot=FOOT, **more)
     inch = axes.figure.dpi / axes.bbox.height
     if top == 0:
-        axes.text(0.5, 0.02 * inch, f"{label}:\n{'not above 0' if values.any() else 'zero everywhere'}", transform=axes.transAxes, ha="center", va="bottom")
+        axes.text(0.5, 0.02 * inch, f"{label}:\n{'not above 0' if values.any() else 'zero everywhere'}", transform=axes.transAxes,
+                  ha="center", va="bottom")
     else:
         axes.figure.colorbar(ScalarMappable(norm, colours), cax=axes.inset_axes([0.2, 0.32 * inch, 0.6, 0.1 * inch]),
                              orientation="horizontal", label=label, extend="max", ticks=MaxNLocator(3))
