@@ -200,8 +200,8 @@ std::string reason_against(const BValue &value, const BValueRules &rules) {
       return found + "; a b-value needs " + std::to_string(rules.least_events);
     case PowerLaw::not_followed:
       return found +
-             ": over no range with half of them, a decade of their number and one of energy do they "
-             "follow a power law";
+             ": no range that holds half of the events and spans a decade in number and in energy fits a "
+             "power law";
   }
   return "";
 }

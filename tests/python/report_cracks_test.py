@@ -100,6 +100,8 @@ class OfARun(InRun):
         found = cracks._density(TestRun(self.path))
         self.assertTrue(found.is_share)
         self.assertLessEqual(numpy.nanmax(found.values), 1)
+        image = house.figure_of(cracks.pictures_of_cracks(TestRun(self.path))[2]).axes[0].images[0]
+        self.assertAlmostEqual(image.norm.vmax, numpy.nanmax(found.values))
         height = (numpy.arange(len(found.values)) + 0.5) / len(found.values)
         self.assertGreater(numpy.nansum(found.values[abs(height - 0.5) < 0.2]), 0)
         self.assertEqual(numpy.nansum(found.values[abs(height - 0.5) > 0.35]), 0)
@@ -116,8 +118,13 @@ class OfARun(InRun):
         early = sum(row[0] < run.peak_time for row in until)
         self.assertEqual(titles("crack_times"), [f"{early} before the peak (both halves)",
                                                  f"{len(until) - early} after the peak (both halves)"])
+        run.peak_words = "largest stress"
+        self.assertEqual(titles("crack_times")[0], f"{early} before the largest stress (both halves)")
         run.info["crack_rose"] = [1.0, 1.0]
         self.assertEqual([p.name for p in cracks.pictures_of_cracks(run)][3:], ["crack_rose"])
+        for extent, words in ((CYLINDER, "lies along"), (Extent("box", 0.05, 0.01, 0, 0.02), "is vertical")):
+            run.extent = extent
+            self.assertIn(f"At 90 degrees a crack {words}", cracks.pictures_of_cracks(run)[3].caption)
         run.info["crack_rose"] = [None, None]
         self.assertEqual(len(cracks.pictures_of_cracks(run)), 3)
         (self.path / "cracks.csv").unlink()

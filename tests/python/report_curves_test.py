@@ -36,6 +36,16 @@ class Moments(WithRuns):
         self.assertEqual((run.peak_row, run.end_time), (2, 5))
         self.assertAlmostEqual(run.fall_time, 3.5)
 
+    def test_the_largest_stress_is_a_peak_only_where_it_is_a_strength(self):
+        stress = [0, 60, 100, 90, 70]
+        for name, words, z, info in (("a", "peak", stress, {}), ("b", "largest stress", stress[:3], {}),
+                                     ("c", "peak", stress[:3], {"peak_reached": True}),
+                                     ("d", "largest stress", stress, {"peak_reached": False}),
+                                     ("e", "largest stress", stress, {"peak_reached": True, "validity": {"strength_pa": ["too fast"]}})):
+            run = self.run_of({"z": z}, info, name=name)
+            label = list(lines_of(curves.pictures_of_curves(run)[0])[0])[0]
+            self.assertTrue(label.startswith(f"axial, between platens: {words} 0.0001 MPa"), label)
+
     def test_a_dip_before_the_peak_is_no_fall(self):
         run = self.run_of({"z": [0, 90, 40, 100, 85]})
         self.assertEqual((run.peak_row, run.fall_time, run.pattern_time), (3, None, 4))
@@ -62,8 +72,9 @@ class Moments(WithRuns):
         self.assertEqual(run.strain_title, "Axial strain between platens from the end of consolidation (mm/m)")
         axial = next(iter(lines_of(curves.pictures_of_curves(run)[0])[0].values()))
         numpy.testing.assert_allclose(axial, [[0, 4e-6], [0.8, 4e-5], [1.3, 6.1e-5], [1.9, 3e-5]])
-        bare = self.run_of(columns, {"consolidation_end_time_s": None}, name="bare")
-        self.assertEqual((bare.zero, bare.strain_title), (0, "Axial strain between platens (mm/m)"))
+        for name, told in (("bare", None), ("hydrostatic", 5.0)):  # all of it is consolidation: it counts from the start
+            bare = self.run_of(columns, {"consolidation_end_time_s": told}, name=name)
+            self.assertEqual((bare.zero, bare.strain_title), (0, "Axial strain between platens (mm/m)"))
 
 
 class Curves(WithRuns):
@@ -72,11 +83,43 @@ class Curves(WithRuns):
                            "volumetric_strain": [0, 1e-3, -5e-3], "broken_tension": [0, 1, 5]})
         axes = house.figure_of(curves.pictures_of_curves(run)[0]).axes
         colours = [line.get_color() for line in axes[0].lines if len(line.get_xdata()) > 1]
-        self.assertEqual(colours, [house.BLUE, house.VERMILION, house.GREEN])
+        self.assertEqual(colours, [house.BLACK, house.GREY, house.GREEN])
         numpy.testing.assert_allclose(axes[0].lines[3].get_xydata(), [[0, 0], [-0.1, 1], [-0.2, 2]])
         numpy.testing.assert_allclose(axes[2].lines[0].get_xydata(), [[0, 0], [1, 1], [2, -5]])
         self.assertEqual(axes[0].get_xlim(), axes[2].get_xlim())  # one strain axis
+        told = json.loads(house._hover(axes[0].figure, "a"))
+        self.assertEqual([panel["units"] for panel in told], [[" mm/m", " MPa"], [" mm/m", ""], [" mm/m", " mm/m"]])
+        self.assertEqual(told[0]["curves"][0][1], "axial, between platens")
         self.assertLessEqual(axes[0].get_xlim()[1], 1.5 * 2)  # the largest strains are cut off
+        self.assertNotIn("cut off", curves.pictures_of_curves(run)[0].caption)
+        wide = self.run_of({"z": [0, MPA, 2 * MPA], "lateral_strain": [0, -1e-4, -3e-3]}, name="wide")
+        self.assertIn("cut off", curves.pictures_of_curves(wide)[0].caption)
+
+    def test_a_tension_test_is_drawn_with_tension_positive(self):
+        run = self.run_of({"z": [0, -2 * MPA, -MPA], "axial_strain_platen": [0, -1e-4, -3e-4], "volumetric_strain": [0, -5e-5, -2e-4],
+                           "boundary_work_j": [0, 1, 2]}, {"test": "tension"})
+        pictures = curves.pictures_of_curves(run)
+        above, volume = house.figure_of(pictures[0]).axes
+        numpy.testing.assert_allclose(above.lines[0].get_xydata(), [[0, 0], [0.1, 2], [0.3, 1]])
+        numpy.testing.assert_allclose(volume.lines[0].get_xydata(), [[0, 0], [0.1, 0.05], [0.3, 0.2]])
+        self.assertEqual(above.lines[0].get_label(), "axial, between platens: peak 2 MPa at 0.1 mm/m")
+        self.assertEqual((above.get_ylabel(), volume.get_xlabel()),
+                         ("Axial stress (MPa), tension positive", "Strain (mm/m), tension positive"))
+        numpy.testing.assert_allclose(lines_of(pictures[1])[0]["work of the platens"][:, 0], [0, 0.1, 0.3])
+
+    def test_what_unloads_is_drawn_over_time(self):
+        strain = [0, 1e-3, 0.5e-3, 2e-3]
+        columns = {"z": [0, 2 * MPA, MPA, 3 * MPA], "axial_strain_platen": strain, "broken_tension": [0, 1, 2, 9],
+                   "volumetric_strain": strain, "boundary_work_j": [0, 1, 0.5, 2]}
+        run = self.run_of(columns)
+        stress, bonds, volume = house.figure_of(curves.pictures_of_curves(run)[0]).axes
+        energies = house.figure_of(curves.pictures_of_curves(run)[1]).axes[0]
+        numpy.testing.assert_allclose(stress.lines[0].get_xdata(), [0, 1, 0.5, 2])
+        for axes in (bonds, volume, energies):
+            numpy.testing.assert_allclose(axes.lines[0].get_xdata(), [0, 1e3, 2e3, 3e3])  # ms
+        self.assertEqual([axes.get_xlabel() for axes in (stress, bonds, volume, energies)],
+                         ["Strain (mm/m), compression positive", "", "Time (ms)", "Time (ms)"])
+        self.assertFalse(self.run_of({**columns, "axial_strain_platen": [0, 1e-3, 0.91e-3, 2e-3]}, name="nearly").goes_back)
 
     def test_plastic_work_is_named_by_its_law_and_what_is_zero_is_not_drawn(self):
         columns = {"z": [0, 1, 2], "boundary_work_j": [0, 5, 10], "bond_energy_j": [0, 4, 6], "plastic_work_j": [0, 1, 3],
@@ -85,9 +128,16 @@ class Curves(WithRuns):
         main, small = lines_of(picture)
         self.assertEqual(list(main), ["work of the platens", "elastic energy of bonds", "plastic work of bonds (yielding parallel bond)"])
         self.assertEqual(list(small), ["elastic energy of contacts", "residual"])
-        columns["contact_energy_j"] = [0, 1, 2]  # a fifth of the work
+        tiny = self.run_of({**columns, "contact_energy_j": [0, 1e-6, 2e-6], "energy_residual_j": [0, 0, 1e-6]}, name="tiny")
+        axes = house.figure_of(curves.pictures_of_curves(tiny)[1]).axes[1]
+        self.assertEqual((axes.get_ylabel(), axes.lines[0].get_ydata()[2]), ("Energy (mJ)", 2e-3))
+        columns["contact_energy_j"], columns["body_energy_j"] = [0, 1, 2], [0, 0.1, 0.2]  # a fifth of the work
         main, small = lines_of(curves.pictures_of_curves(self.run_of(columns, name="other"))[1])
         self.assertIn("elastic energy of contacts", main)
+        for machine, bodies in (("", "platens"), ("1", "platens and machine")):
+            scene = f"subsection Platens\nset Kind = deformable\nset Machine stiffness = {machine}\nend\n"
+            run = self.run_of(columns, scene=scene, name=bodies)
+            self.assertIn(f"elastic energy of {bodies}", lines_of(curves.pictures_of_curves(run)[1])[1])
 
     def test_damage_is_not_called_broken_bonds_where_the_law_softens(self):
         columns = {"z": [0, 1, 2], "boundary_work_j": [0, 5, 10], "fracture_work_j": [0, 1, 3]}
@@ -97,11 +147,16 @@ class Curves(WithRuns):
 
     def test_discs_and_cells_have_their_pictures(self):
         names = lambda run: [picture.name for picture in curves.pictures_of_curves(run)]  # noqa: E731
-        disc = self.run_of({"z": [0, MPA, 0], "opening_m": [0, 1e-4, 2e-4]}, name="disc")
-        self.assertEqual(names(disc), ["stress_strain", "opening"])
-        numpy.testing.assert_allclose(list(lines_of(curves.pictures_of_curves(disc)[1])[0].values())[0], [[0, 0], [0.1, 1], [0.2, 0]])
+        disc = self.run_of({"z": [0, MPA, 0], "opening_m": [0, 1e-4, 2e-3], "broken_tension": [0, 1, 9]}, name="disc")
+        self.assertEqual((names(disc), disc.strain_title), (["opening"], "Closure over the diameter (mm/m)"))
+        stress, bonds = lines_of(curves.pictures_of_curves(disc)[0])
+        numpy.testing.assert_allclose(list(stress.values())[0], [[0, 0], [0.1, 1], [2, 0]])
+        numpy.testing.assert_allclose(bonds["broken in tension"], [[0, 0], [0.1, 1], [2, 9]])
+        self.assertAlmostEqual(house.figure_of(curves.pictures_of_curves(disc)[0]).axes[0].get_xlim()[1], 1)  # ten times that at the peak
         cell = self.run_of({"z": [0, 9, 0], "deviator_pa": [0, 6 * MPA, -3], "confining_pressure_pa": [0, 3, 3]}, name="cell")
         self.assertEqual(names(cell), ["stress_strain", "confinement", "stress_path"])
+        self.assertEqual([axes.get_xlabel() for axes in house.figure_of(curves.pictures_of_curves(cell)[1]).axes],
+                         ["", "Axial strain between platens (mm/m)", "Time (ms)"])
         drawn = lines_of(curves.pictures_of_curves(cell)[1])[0]
         numpy.testing.assert_allclose(drawn["axial stress less the pressure of the cell"][1], [1, 6])
 
@@ -130,6 +185,7 @@ class Acoustic(WithRuns):
         run = self.heard()
         self.assertEqual(curves.power_law(run, False), (None, "3 events"))
         self.assertIn("No b-value after the peak: 3 events.", curves.pictures_of_events(run)[0].caption)
+        self.assertIn("M = (log10(E/J) - 4.8)/1.5", curves.pictures_of_events(run)[0].caption)
         self.assertEqual(curves.power_law(self.run_of({"z": [0, 1]}, name="none"), True), (None, ""))
 
     def test_a_law_is_drawn_over_its_range_alone(self):
@@ -147,7 +203,8 @@ class Costs(WithRuns):
         run = self.run_of({"z": [0, 1]}, {"wall_seconds": 20.0, "setup_seconds": 4.0,
                                           "stage_seconds": {"motion": 2.0, "bonds": 9.0, "stable_step": 1.5, "bodies": 0.0}})
         found = curves.costs_of(run)
-        self.assertEqual(found[:4], [("bonds", 9, True), ("setting up", 4, False), ("motion", 2, True), ("stable step", 1.5, True)])
+        self.assertEqual(found[:4], [("forces of bonds", 9, True), ("setting up", 4, False), ("motion of the spheres", 2, True),
+                                     ("choice of the time step", 1.5, True)])
         self.assertEqual((found[4][0], sum(cost[1] for cost in found)), ("other", 20))
 
     def test_the_machine_is_that_of_the_log(self):

@@ -183,9 +183,14 @@ class OneSphere(InFolder):
     def test_the_picture_shows_compression_as_positive_and_half_the_difference_of_principal_stresses(self):
         run = self.run_of()
         picture = fields.picture_of_stress_flow(run)
-        scales = [axes.child_axes[0].get_ylim() for axes in house.figure_of(picture).axes[:2]]
+        panels = house.figure_of(picture).axes[:2]
+        self.assertTrue(all(axes.xaxis_inverted() for axes in panels), "x points to the left, as in other pictures")
+        scales = [axes.child_axes[0].get_ylim() for axes in panels]
         numpy.testing.assert_allclose(numpy.mean(scales, axis=1), [7, 3.5], rtol=1e-6)  # MPa, of the platen
         self.assertIn("White: neither specimen nor platen", picture.caption)
+        self.assertNotIn("rigid", picture.caption)
+        del run.grid("platens", run.peak_time).point_data["stress"]
+        self.assertIn("Grey: rigid platens", fields.picture_of_stress_flow(run).caption)
 
 
 if __name__ == "__main__":

@@ -169,6 +169,7 @@ class Pictures(Runs):
         self.assertEqual(names(), [])
         self.assertEqual(names(of_ends=ends()), ["friction", "platen_pressure", "stick_slip"])
         self.assertEqual(names({"Attachment": "glued"}, of_ends=ends()), ["platen_pressure"])
+        self.assertEqual(names({"Friction static": 0}, of_ends=ends()), ["platen_pressure"])
         self.assertEqual(names({"Strip width": "1 cm"}, of_ends=ends()), ["friction", "strip_loads", "stick_slip"])
         for box in ({"sides": ("left", "right")}, {"corner": math.sqrt(2)}):
             self.assertEqual(names(of_ends=ends(), **box), ["friction", "side_pressure", "stick_slip"])
@@ -181,8 +182,15 @@ class Pictures(Runs):
         numpy.testing.assert_allclose([axes.lines[1].get_xydata()[1] for axes in (share, friction, slip)],
                                       [[1e3, 0.6], [1e3, INWARD * 2 / 3], [1e3, 2]], rtol=1e-3)  # ms; micrometres
         self.assertEqual([text.get_text() for text in friction.texts], ["limit, static: 0.5", "limit, sliding: 0.4", "peak"])
+        self.assertEqual(friction.texts[2].get_va(), "top")  # in its chart, not between two
         numpy.testing.assert_allclose(drawn["platen_pressure"][0].lines[0].get_xydata()[0], [1e3 * RADIUS * math.sqrt(0.1), 30], rtol=1e-6)
         self.assertEqual([text.get_text() for text in drawn["stick_slip"][1].get_legend().get_texts()], ["top: 800 stick", "1200 slide"])
+        half = self.run_of({"Friction static": 0, "Top/Friction static": 0.1}, of_ends=ends())
+        greased = {p.name: p for p in platens.pictures_of_ends(half)}
+        pressure, shear = ([bar.get_label() for bar in axes.containers] for axes in house.figure_of(greased["platen_pressure"]).axes)
+        self.assertEqual((pressure, shear), (["bottom platen", "top platen"], ["top platen"]))
+        self.assertEqual(len(greased["stick_slip"].rows[0]), 1)
+        self.assertEqual(len(platens.pictures_of_ends(self.run_of({"Friction static": 0}, of_ends=ends()))[0].rows), 1)
 
     def test_pressure_over_faces_is_over_the_mean_of_each_platen(self):
         run = self.run_of(of_ends=ends(), sides=("left", "right"))

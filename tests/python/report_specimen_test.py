@@ -127,6 +127,21 @@ class Images(unittest.TestCase):
         with self.assertRaisesRegex(InputError, "x: holds other elements than hexahedra"):
             spheres.surface(Grid(points, {}, {}, {}, numpy.arange(4), numpy.arange(1, 5)), "x")
 
+    def test_a_round_platen_of_few_elements_is_drawn_round(self):
+        turn = numpy.pi / 8 * numpy.arange(16)
+        rim = 0.02 * numpy.column_stack([numpy.cos(turn), numpy.sin(turn)])
+        cells = [[0, 1 + k, 1 + (k + 1) % 16, 1 + (k + 2) % 16] for k in range(0, 16, 2)]
+        points = numpy.vstack([numpy.insert(numpy.vstack([[0, 0], rim]), 2, z, axis=1) for z in (0.04, 0.06)])
+        grid = Grid(points, {}, {}, {}, numpy.hstack([cells, numpy.add(cells, 17)]).ravel(), 8 * numpy.arange(1, 9))
+        self.assertEqual(spheres.boxes_of(grid, "x"), [[-0.02, -0.02, 0.04, 0.02, 0.02, 0.06, 1]])
+        corners, faces = spheres.cylinder(spheres.boxes_of(grid, "x")[0])
+        a, b, c, d = corners[faces].transpose(1, 0, 2)
+        flux = (numpy.cross(c - a, d - b) / 2 * (a + b + c + d) / 4).sum() / 3  # the volume, where all faces look outwards
+        self.assertAlmostEqual(flux / (math.pi * 0.02**2 * 0.02), 1, delta=2e-3)
+        image, _ = picture_of(lambda s: s.bodies(grid, "x"))
+        shades = numpy.unique(image[len(image) // 2], axis=0)
+        self.assertGreater(len(shades), 30, "a polygon of 16 sides shows nine shades and those of its edges")
+
     def test_a_cut_body_is_filled_at_the_cut_and_hides_what_is_behind_it_alone(self):
         block = [brick((-0.01, -0.02, 0.04), (0.01, 0.02, 0.06)), brick((-0.02, -0.03, 0.03), (0.02, -0.025, 0.07))]
         grid = Grid(numpy.vstack(block), {}, {}, {}, numpy.arange(16), numpy.array([8, 16]))
@@ -219,6 +234,10 @@ class Pictures(InRun):
         self.assertEqual(names(), always)
         one = run.TestRun(self.path)
         self.assertEqual([len(p.rows[0]) for p in specimen.pictures_of_specimen(one)], [3, 3, 2, 2, 2])
+        one.peak_time = 1.01 * one.spheres(1.0).time
+        self.assertEqual(one.near_peak("specimen"), "near the peak")
+        one.peak_time = 1.2 * one.spheres(1.0).time
+        self.assertEqual(one.near_peak("specimen"), "at 1000 ms (83 % of the time to the peak)")
         six = specimen.comparison([one] * 6)
         self.assertEqual([p.name for p in six], ["comparison_displacement", "comparison_damage", "comparison_fragments"])
         self.assertEqual([len(row) for row in six[0].rows], [4, 4])
@@ -235,6 +254,21 @@ class Pictures(InRun):
             rows = specimen.half(one.spheres(time))
             self.assertAlmostEqual(axes.get_xlim()[1], 1e3 * specimen.top_of(one.spheres(time).outward[rows]))
         self.assertEqual(len(bars), 2)
+        self.assertNotIn("Cones are dark", found["outward_displacement"].caption)
+        self.assertIn("cut at y = 0", specimen.cones_caption(one))
+        told = {"half_angle_deg": 45, "confidence": 0.5, "base_ratio": 0.9, "apex_m": [0.001, 0, 0.07], "axis": [0, 0, 1]}
+        one.info.update({"dead_zone_top": {"base_ratio": 0.9}, "cone_top": told})
+        self.assertIn("Cones are dark", {p.name: p for p in specimen.pictures_of_specimen(one)}["outward_displacement"].caption)
+        self.assertIn("cut along the axes of the cones", specimen.cones_caption(one))
+        self.assertIn("Green: the largest", found["fragments"].caption)
+        pieces = one.start._replace(fragment=numpy.arange(len(one.start.radius)))
+        one.spheres = lambda time: pieces
+        self.assertNotIn("Green", {p.name: p for p in specimen.pictures_of_specimen(one)}["fragments"].caption)
+        before = house.figure_of(found["specimen_inside"]).axes[0]
+        self.assertEqual([text.get_text() for text in before.texts], ["Displacement (mm):\nzero everywhere"])
+        small = one.start._replace(position=one.start.initial + [0, 0, 4e-6])
+        one.spheres = lambda time: small
+        self.assertEqual(house.figure_of(found["specimen_inside"]).axes[1].child_axes[0].get_xlabel(), "Displacement (µm)")
 
 
 if __name__ == "__main__":

@@ -98,23 +98,23 @@ def discs(axes, run, which):
     scene.show()
     for line in edges(run.extent):
         scene.line(line)
-    axes.set_title(f"{chosen.sum()} {which} (both halves)")
+    axes.set_title(f"{chosen.sum()} {which.replace('peak', run.peak_words)} (both halves)")
     if which == "after the peak":
-        colour_bar(axes, VIRIDIS, norm, "Time over that of the peak")
+        colour_bar(axes, VIRIDIS, norm, f"Time over that of the {run.peak_words}")
 
 
 def density_map(axes, run):
     """Broken bonds over height and distance from the axis; the left half mirrors the right."""
     found, extent = _density(run), run.extent
     values = found.values if found.is_share else found.values * 1e-6
-    norm = Normalize(0, 1 if found.is_share else values.max() or 1)
+    norm = Normalize(0, max(0.1, numpy.nanmax(values, initial=0)) if found.is_share else values.max() or 1)
     half_width = extent.half_width * MM
     axes.imshow(numpy.hstack([values[:, ::-1], values]), DAMAGE, norm, aspect="auto", origin="lower",
                 extent=(-half_width, half_width, 0, extent.height * MM))
     axes.grid(False)
     axes.xaxis.set_major_formatter(lambda x, _: f"{abs(x):g}")
     axes.set(xlabel=f"Distance from the {'plane x = 0' if extent.is_plane else 'axis'} (mm)", ylabel="Height (mm)")
-    colour_bar(axes, DAMAGE, norm, "Broken fraction of the bonds" if found.is_share else "Broken bonds per cm³")
+    colour_bar(axes, DAMAGE, norm, "Broken fraction\nof the bonds" if found.is_share else "Broken bonds per cm³")
 
 
 def scatter_of_rose(area, bins):
@@ -123,13 +123,17 @@ def scatter_of_rose(area, bins):
     return numpy.sqrt((1 - p) / p * (area**2).sum()) / area.sum()
 
 
+def _ways(run):  # of cracks whose normals are along and across the axis: a bar lies
+    return ("is horizontal", "is vertical") if run.extent.form == "box" and run.extent.is_plane else ("lies across", "lies along")
+
+
 def rose(axes, run):
     """Area of cracks by the angle of their normals to the axis, over that of cracks that face all ways alike."""
     values, area = numpy.array(run.info["crack_rose"], float), run.table("cracks")["area_m2"]
     step, k = 90 / len(values), numpy.arange(len(values))
     names = [f"{step * j:.0f} to {step * (j + 1):.0f}°" for j in k]
-    names[0] += ", crack lies across"
-    names[-1] += ", crack lies along"
+    names[0] += f", crack {_ways(run)[0]}"
+    names[-1] += f", crack {_ways(run)[1]}"
     texts = [f"{value:.2f}" for value in values]
     bars(axes, names, values, texts, "Area of cracks over that of cracks in random directions", "#777777", mark=1)
     if len(area):
@@ -150,8 +154,8 @@ def pictures_of_cracks(run):
     pictures = [
         panels("cracks", f"Bonds broken until {until} as discs of their size, in the half specimen: in tension (left), in shear (right).",
                [partial(discs, run=run, which=which) for which in ("in tension", "in shear")], [extent], margin=0.06),
-        panels("crack_times", f"The same discs by the time when they broke, until {until}: before the peak (left) and after it (right). "
-               "Where the right half is empty, no bond broke after the peak.",
+        panels("crack_times", f"The same discs by the time when they broke, until {until}: before the {run.peak_words} (left) and after it "
+               "(right). Where the right half is empty, no bond broke after it.",
                [partial(discs, run=run, which=which) for which in ("before the peak", "after the peak")], [extent], True, margin=0.06),
         Picture("crack_density", f"Bonds broken until {until} over the height and the distance from the "
                 f"{'plane x = 0' if extent.is_plane else 'axis'}; the left half mirrors the right.{white}",
@@ -159,6 +163,7 @@ def pictures_of_cracks(run):
     if isinstance(run.info.get("crack_rose"), list) and run.info["crack_rose"][:1] not in ([], [None]):
         pictures.append(chart(
             "crack_rose", "The angle between the normal of a crack and the axis of the specimen, all of the run. Beyond the line there are "
-            "more cracks than in random directions. At 90 degrees cracks run along the specimen: it splits. A bar that ends in the "
-            "blue band (two standard deviations) may differ from the line by chance.", rose, run=run, heights=3, margin=1.9, titles=True))
+            f"more cracks than in random directions. At 90 degrees a crack {_ways(run)[1].replace('along', 'along the axis')}. A bar that "
+            "ends in the blue band (two standard deviations) may differ from the line by chance.", rose, run=run,
+            heights=3, margin=2.05, titles=True))
     return pictures

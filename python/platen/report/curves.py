@@ -20,84 +20,108 @@ MAIN = (("boundary_work_j", "work of the platens", BLACK, "-"), ("bond_energy_j"
         ("damping_work_j", "damping", GREY, "-"), ("plastic_work_j", "plastic work of bonds ({law})", PURPLE, "-"))
 FRACTURE = {"elasto damage plastic": "damage of bonds", "facet": "damage and slip of bonds"}  # by law; else broken bonds
 SMALL = (("contact_energy_j", "elastic energy of contacts", SKY, "-"),
-         ("body_energy_j", "elastic energy of platens, sleeve and machine", GREEN, "-"), ("kinetic_energy_j", "kinetic energy", BLUE, "--"))
+         ("body_energy_j", "elastic energy of {bodies}", GREEN, "-"), ("kinetic_energy_j", "kinetic energy", "#882255", "--"))
 RESIDUAL = ("energy_residual_j", "residual", BLACK, "--")
 MAIN_SHARE, SMALL_SHARE = 0.01, 0.05
+_LEFT, _RIGHT = 1.2, 1.5  # that strains are drawn to, over the largest one between the platens
+_SMALL_JOULES = 0.01  # below it axes have mJ
+_MOST_OPEN = 10  # of what it was at the peak
 _STAGE_COLOURS = (*CYCLE, "#882255", "#999933", "#332288")  # after ten they come again, dashed
 _ASKED = ("Axial", "Lateral", "Lateral x", "Lateral y", "Bottom", "Top", "Left", "Right", "Front", "Back")
 
 
+_BROKEN = (("broken_tension", "broken in tension", VERMILION, "-"), ("broken_shear", "broken in shear", BLUE, "--"))
+
+
 # ---- stress, broken bonds, volume
+def _sign(runs):
+    """Of stresses and strains that are drawn: those of tension tests by themselves are positive in tension."""
+    return -1 if all(run.info.get("test") == "tension" for run in runs) else 1
+
+
 def _over_strain(axes, runs, columns, factor=1.0, since=False):
     """Columns (name, words, colour, line) of the histories from the end of consolidation on, as far as they have them, over strain; since:
-    less what they were there. Of several runs a colour is a run."""
+    less what they were there; over time where the strain of all goes back. Of several runs a colour is a run."""
     for k, run in enumerate(runs):
         for column, words, colour, line in columns:
             if run.has(column):
                 values = (run.since(column) if since else run.h[column]) * factor
-                axes.plot(run.strain[run.rows] * MM, values[run.rows], line, color=CYCLE[k % len(CYCLE)] if len(runs) > 1 else colour,
+                axes.plot(_along(run, runs)[run.rows], values[run.rows], line, color=CYCLE[k % len(CYCLE)] if len(runs) > 1 else colour,
                           label=words if len(runs) == 1 else None)
+
+
+def _over_time(runs):
+    return all(run.goes_back for run in runs)  # over a strain that goes back curves would be a tangle
+
+
+def _along(run, runs):
+    return run.h["time_s"] * MS if _over_time(runs) else _sign(runs) * run.strain * MM
 
 
 def _strain_label(runs):
     consolidated = [run.zero > 0 for run in runs]
     origin = " from the end of consolidation" * any(consolidated) + ", where there is one" * (any(consolidated) and not all(consolidated))
-    return f"Strain{origin} (mm/m), compression positive"
+    return f"Strain{origin} (mm/m), {'compression' if _sign(runs) > 0 else 'tension'} positive"
 
 
 def stress(axes, runs):
     """Stress over strain between platens and in the gauge, lateral strain to the left; dots at the peaks. One run: kinds of
     strain have colours; several: runs have."""
-    several, furthest = len(runs) > 1, 0.0
+    several, furthest, sign = len(runs) > 1, 0.0, _sign(runs)
     for k, run in enumerate(runs):
-        colour, y = CYCLE[k % len(CYCLE)], run.stress * MPA
+        colour, y, strain = CYCLE[k % len(CYCLE)] if several else BLACK, sign * run.stress * MPA, sign * run.strain * MM
         along = run.name if several else "axial" if run.axis == 2 else f"along {'xyz'[run.axis]}"
-        peak = "no peak reached, largest" if run.peak_reached is False else "peak"
-        peak += f" {run.peak_stress * MPA:.4g} MPa at {run.strain[run.peak_row] * MM:.3g} mm/m"
+        peak = f"{run.peak_words} {y[run.peak_row]:.4g} MPa at {strain[run.peak_row]:.3g} mm/m"
         kinds = [(STRAIN[run.axis], f"{along}, between platens: {peak if run.peak_stress else 'no stress'}", colour, "-", 1.8)]
         if run.axis == 2:  # the gauge measures along z
-            kinds += [("axial_strain_gauge", "axial, gauge (middle half)", VERMILION, "--", 1.2),
+            kinds += [("axial_strain_gauge", "axial, gauge (middle half)", GREY, "--", 1.2),
                       ("lateral_strain", "lateral, gauge", GREEN, "-", 1.2)]
         elif not several:
-            kinds += [(STRAIN[axis], f"along {'xyz'[axis]}, between platens", GREEN if axis == 2 else VERMILION, "-", 1.2)
+            kinds += [(STRAIN[axis], f"along {'xyz'[axis]}, between platens", GREEN if axis == 2 else GREY, "-", 1.2)
                       for axis in range(3) if axis != run.axis]
         for n, (column, words, own, line, width) in enumerate(kinds):
             if run.has(column):
-                axes.plot(run.since(column)[run.rows] * MM, y[run.rows], line, color=colour if several else own, lw=width,
+                axes.plot(sign * run.since(column)[run.rows] * MM, y[run.rows], line, color=colour if several else own, lw=width,
                           label=words if n == 0 or not several else None)
             if n == 0:
-                axes.plot(run.strain[run.peak_row] * MM, y[run.peak_row], "o", color=colour)
-        furthest = max(furthest, float(numpy.nanmax(run.strain[run.rows])) * MM)
+                axes.plot(strain[run.peak_row], y[run.peak_row], "o", color=colour)
+        furthest = max(furthest, float(numpy.nanmax(strain[run.rows])))
     if furthest > 0:  # what opens once it has failed is cut off
         low, high = axes.get_xlim()
-        axes.set_xlim(max(low, -1.2 * furthest), min(high, 1.5 * furthest))
-    titled(axes, _strain_label(runs), runs[0].stress_title)
+        axes.set_xlim(max(low, -_LEFT * furthest), min(high, _RIGHT * furthest))
+    titled(axes, _strain_label(runs), runs[0].stress_title + ", tension positive" * (sign < 0))
 
 
 def broken_bonds(axes, runs):
     """Bonds broken in tension and shear over strain."""
-    _over_strain(axes, runs, (("broken_tension", "broken in tension", VERMILION, "-"), ("broken_shear", "broken in shear", BLUE, "--")))
-    titled(axes, _strain_label(runs), "Broken bonds", 2)
+    _over_strain(axes, runs, _BROKEN)
+    titled(axes, "Time (ms)" if _over_time(runs) else _strain_label(runs), "Broken bonds", 2)
 
 
 def volume(axes, runs):
     """Volumetric strain of the gauge over strain; dots at the peaks."""
     for k, run in enumerate(runs):
         if run.has("volumetric_strain"):
-            colour, y = CYCLE[k % len(CYCLE)] if len(runs) > 1 else GREEN, run.since("volumetric_strain") * MM
-            axes.plot(run.strain[run.rows] * MM, y[run.rows], color=colour)
-            axes.plot(run.strain[run.peak_row] * MM, y[run.peak_row], "o", color=colour)
-    axes.set(xlabel=_strain_label(runs), ylabel="Volumetric\nstrain (mm/m)")
+            colour = CYCLE[k % len(CYCLE)] if len(runs) > 1 else GREEN
+            x, y = _along(run, runs), _sign(runs) * run.since("volumetric_strain") * MM
+            axes.plot(x[run.rows], y[run.rows], color=colour)
+            axes.plot(x[run.peak_row], y[run.peak_row], "o", color=colour)
+    axes.set(xlabel="Time (ms)" if _over_time(runs) else _strain_label(runs), ylabel="Volumetric\nstrain (mm/m)")
 
 
 def stress_strain(runs, name, caption):
     """The Picture of stress, broken bonds and volume under one another, as far as the histories have them."""
     draws = [stress, *(draw for draw, columns in ((broken_bonds, ("broken_tension", "broken_shear")), (volume, ("volumetric_strain",)))
                        if any(run.has(column) for run in runs for column in columns))]
-    return chart(name, caption, *draws, runs=runs, heights=[3.3 + 0.17 * len(runs), 1.7, 1.5][:len(draws)], shared=True, margin=0.8)
+    return chart(name, caption, *draws, runs=runs, heights=[3.3 + 0.17 * len(runs), 1.7, 1.5][:len(draws)],
+                 shared={2} if _over_time(runs) else True, margin=0.9)
 
 
 # ---- energies
+def _along_title(run):
+    return "Time (ms)" if run.goes_back else run.strain_title + ", tension positive" * (_sign([run]) < 0)
+
+
 def _terms(run, main):
     """Terms of one of both charts that are not zero throughout."""
     most = {term: numpy.abs(numpy.nan_to_num(run.h[term[0]])).max() for term in (*MAIN, *SMALL, RESIDUAL) if run.has(term[0])}
@@ -107,44 +131,55 @@ def _terms(run, main):
 
 
 def energies(axes, run, main=True):
-    """Over strain, where the work of the platens went; with main=False its small terms and the residual."""
-    law = run.entry("Effects/Bond")
-    for column, words, colour, line in _terms(run, main):
-        label = words.format(law=law or "all laws", fracture=FRACTURE.get(law, "broken bonds"))
-        axes.plot(run.strain * MM, run.h[column], line, color=colour, label=label)
+    """Over strain (time, where that goes back), where the work of the platens went; with main=False its small terms and the residual."""
+    law, terms = run.entry("Effects/Bond"), _terms(run, main)
+    bodies = [name for name, there in (("platens", "deformable" in run.entries.values()), ("sleeve", run.series("sleeve")),
+                                       ("machine", run.entry("Platens/Machine stiffness"))) if there]
+    small = max(numpy.nanmax(numpy.abs(run.h[column]), initial=0) for column, *_ in terms) < _SMALL_JOULES
+    for column, words, colour, line in terms:
+        label = words.format(law=law or "all laws", fracture=FRACTURE.get(law, "broken bonds"), bodies=" and ".join(bodies) or "platens")
+        axes.plot(_along(run, [run]), run.h[column] * (1e3 if small else 1), line, color=colour, label=label)
     axes.locator_params(axis="y", nbins=6)
-    titled(axes, run.strain_title, "Energy (J)", 2)
+    titled(axes, _along_title(run), "Energy (mJ)" if small else "Energy (J)", 2)
 
 
 # ---- discs, bars, cells
-def opening(axes, run):
-    """Splitting stress over the widening of a disc, flexural stress over the deflection of a bar; a dot at the peak."""
+def opening(axes, run, bonds=False):
+    """Splitting stress over the widening of a disc, flexural stress over the deflection of a bar, a dot at the peak; bonds: broken ones."""
     bent = run.has("deflection_m")
     way = run.h["deflection_m" if bent else "opening_m"] * MM
-    axes.plot(way, run.stress * MPA, color=BLUE, lw=1.8)
-    axes.plot(way[run.peak_row], run.peak_stress * MPA, "o", color=BLUE, label=f"peak {run.peak_stress * MPA:.4g} MPa")
+    for column, words, colour, line in _BROKEN if bonds else ():
+        if run.has(column):
+            axes.plot(way, run.h[column], line, color=colour, label=words)
+    if not bonds:
+        axes.plot(way, run.stress * MPA, color=BLACK, lw=1.8)
+        axes.plot(way[run.peak_row], run.peak_stress * MPA, "o", color=BLACK, label=f"{run.peak_words} {run.peak_stress * MPA:.4g} MPa")
+    most = _MOST_OPEN * way[run.peak_row]
+    if axes.get_xlim()[1] > most > 0:  # halves move apart
+        axes.set_xlim(-0.05 * most, most)
     titled(axes, "Deflection at mid-span (mm)" if bent else "Widening across the loaded diameter (mm)",
-           "Nominal flexural stress (MPa)" if bent else "Splitting stress (MPa)")
+           "Broken bonds" if bonds else "Nominal flexural stress (MPa)" if bent else "Splitting stress (MPa)", 2)
 
 
 def deviator(axes, run):
     """Deviator over strain."""
-    _over_strain(axes, [run], (("deviator_pa", "axial stress less the pressure of the cell", BLUE, "-"),
-                               ("sleeve_deviator_pa", "carried by the ends of the sleeve", VERMILION, "--")), MPA)
-    titled(axes, run.strain_title, "Deviator (MPa)", 2)
+    _over_strain(axes, [run], (("deviator_pa", "axial stress less the pressure of the cell", BLACK, "-"),
+                               ("sleeve_deviator_pa", "carried by the ends of the sleeve", PURPLE, "--")), MPA)
+    titled(axes, _along_title(run), "Deviator (MPa)", 2)
 
 
 def confined_volume(axes, run):
     """Volumetric strains over strain: of the gauge, and of all that is within a sleeve."""
     _over_strain(axes, [run], (("volumetric_strain", "gauge (middle half)", GREEN, "-"),
                                ("volumetric_strain_sleeve", "all within the sleeve", PURPLE, "--")), MM, since=True)
-    titled(axes, run.strain_title, "Volumetric strain (mm/m)", 2)
+    titled(axes, _along_title(run), "Volumetric\nstrain (mm/m)", 2)
 
 
 def cell_pressure(axes, run):
     """Pressure of the cell over time, the consolidation marked."""
     time = run.h["time_s"] * MS
     axes.plot(time, run.h["confining_pressure_pa"] * MPA, color=BLACK)
+    axes.set_ylim(top=1.2 * axes.get_ylim()[1])
     if run.zero > 0:
         span(axes, time[0], time[run.zero], "consolidation")
     axes.set(xlabel="Time (ms)", ylabel="Pressure of\nthe cell (MPa)")
@@ -154,13 +189,24 @@ def pictures_of_curves(run, laboratory=None):
     """The Pictures of the section "Stress and energy" that the files of a run allow. laboratory: a laboratory.Curve beside."""
     caption = "Stress over strain."
     if run.has("broken_tension"):
-        caption += " Broken bonds and volume are drawn below, over the strain between the platens."
+        caption += f" Broken bonds and volume are drawn below, over {'time' if run.goes_back else 'the strain between the platens'}."
     if run.axis == 2 and run.has("axial_strain_gauge"):
         caption += (" The strain between platens includes the deformation of the ends; the gauge measures the middle half. Lateral strains "
-                    "are negative where the specimen widens.")
+                    f"are negative where the specimen {'widens' if _sign([run]) > 0 else 'narrows'}.")
     if run.has("volumetric_strain"):
         caption += " Where the volume begins to grow, cracks open."
-    pictures = [stress_strain([run], "stress_strain", caption + " Dots: the peak. The largest strains are cut off.")]
+    columns = ("axial_strain_gauge", "lateral_strain") if run.axis == 2 else STRAIN
+    strains = _sign([run]) * numpy.array([run.strain, *(run.since(column) for column in columns if run.has(column))])[:, run.rows]
+    furthest = numpy.nanmax(strains[0])
+    if furthest > 0 and ((strains < -_LEFT * furthest) | (strains > _RIGHT * furthest)).any():
+        caption += " The largest strains are cut off."
+    pictures = [stress_strain([run], "stress_strain", f"{caption} Dots: the {run.peak_words}.")]
+    if run.has("opening_m") or run.has("deflection_m"):
+        words = ("Nominal flexural stress over the deflection of the bar at mid-span" if run.has("deflection_m") else
+                 "Splitting stress over the widening of the disc across the loaded diameter")
+        draws = [opening] + [partial(opening, bonds=True)] * run.has("broken_tension")
+        words += f", broken bonds below, up to {_MOST_OPEN} times its value at the {run.peak_words} (dot)."
+        pictures = [chart("opening", words, *draws, run=run, heights=[3.2, 1.7][:len(draws)], shared=True, margin=0.8)]
     if laboratory is not None:
         pictures.append(chart("laboratory", "Stress over strain of the run and of the laboratory. Dots: the peaks. The table above "
                               "compares them.", measured.against_laboratory, run=run, curve=laboratory, heights=3.6))
@@ -172,17 +218,15 @@ def pictures_of_curves(run, laboratory=None):
                         "should stay near zero.")
         pictures.append(chart("energies", caption, *(partial(energies, main=main) for main in halves), run=run,
                               heights=[3.4, 2.0][:len(halves)], shared=True, margin=0.85))
-    if run.has("opening_m") or run.has("deflection_m"):
-        words = ("Nominal flexural stress over the deflection of the bar at mid-span." if run.has("deflection_m") else
-                 "Splitting stress over the widening of the disc across the loaded diameter.")
-        pictures.append(chart("opening", words + " Dot: the peak.", opening, run=run, heights=3.2))
     if run.has("deviator_pa") and has_cell(run):
-        pictures.append(chart("confinement", "Deviator and volume over strain, compression positive, and the pressure of the cell over "
-                              "time. Where the volume begins to grow, cracks open against the pressure.", deviator, confined_volume,
-                              cell_pressure, run=run, heights=[2.8, 2.0, 1.5], titles=True))
+        pictures.append(chart("confinement", f"Deviator and volume over {'time' if run.goes_back else 'strain'}, compression positive, and "
+                              "the pressure of the cell over time. Where the volume begins to grow, cracks open against the pressure.",
+                              deviator, confined_volume, cell_pressure, run=run, heights=[2.8, 1.7, 1.5],
+                              shared=True if run.goes_back else {1}, margin=0.9))
     if has_stress_path(run):
         pictures.append(chart("stress_path", "Stress path: mean stress and deviator of the stresses along x, y and z. A specimen whose "
-                              "sides are free follows the dashed line. Stress on the sides moves the path away from it. Dot: the peak.",
+                              "sides are free follows the dashed line. Stress on the sides moves the path away from it. "
+                              f"Dot: the {run.peak_words}.",
                               draw_stress_path, runs=[run], heights=3.4))
     return pictures
 
@@ -245,9 +289,10 @@ def section_of_sides(run):
         stress, work = run.h[SIDES[side].column] * MPA, f"friction_work_{side}_j"
         rows.append([side, digits(stress.max()), digits(stress[run.peak_row]), digits(run.h[work][-1]) if run.has(work) else "-"])
     picture = chart("side_stresses", "Stress on each platen: its force over the face of the specimen. A colour is a pair of opposite "
-                    "platens. They differ only by the friction that the other platens take up. Dots: the peak.", side_stresses, run=run,
-                    heights=3.6)
-    return Section("Sides", [picture], [Table(["side", "largest stress (MPa)", "stress at the peak (MPa)", "work of friction (J)"], rows)])
+                    f"platens. They differ only by the friction that the other platens take up. Dots: the {run.peak_words}.",
+                    side_stresses, run=run, heights=3.6)
+    header = ["side", "largest stress (MPa)", f"stress at the {run.peak_words} (MPa)", "work of friction (J)"]
+    return Section("Sides", [picture], [Table(header, rows)])
 
 
 # ---- stages
@@ -389,7 +434,8 @@ def power_law(run, before):
 def acoustic(axes, run):
     """How many events have at least a magnitude, before and after the peak; black: the power laws of the summary."""
     time, magnitude = run.events["time_s"], run.events["magnitude"]  # those without energy have none
-    for before, when, colour, line in ((True, "before the peak", BLUE, "-"), (False, "after the peak", VERMILION, "--")):
+    for before, when, colour, line in ((True, "before the peak", GREEN, "-"), (False, "after the peak", PURPLE, "--")):
+        when = when.replace("peak", run.peak_words)
         sizes, law = numpy.sort(magnitude[numpy.isfinite(magnitude) & ((time <= run.peak_time) == before)]), power_law(run, before)[0]
         if not len(sizes):
             continue
@@ -408,21 +454,26 @@ def pictures_of_events(run):
     """The Pictures of the section "Acoustic emission"; none where the run has no events with a magnitude."""
     if run.table("events") is None or "magnitude" not in run.events or not numpy.isfinite(run.events["magnitude"]).any():
         return []
-    caption = ("Cracks that are near in space and time count as one event. The number of events falls with their magnitude. Where it "
-               "follows a power law, b is its slope (black line).")
+    caption = ("Cracks that are near in space and time count as one event, of magnitude M = (log10(E/J) - 4.8)/1.5 where they set the "
+               "energy E free. The number of events falls with their magnitude. Where it follows a power law, b is its slope (black line).")
     for before, words in ((True, "before"), (False, "after")):
         if reason := power_law(run, before)[1]:
-            caption += f" No b-value {words} the peak: {reason}."
+            caption += f" No b-value {words} the {run.peak_words}: {reason}."
     return [chart("acoustic", caption, acoustic, run=run, heights=3.4)]
 
 
 # ---- computing time
+_PARTS = {"motion": "motion of the spheres", "search": "search for neighbours", "bonds": "forces of bonds",
+          "contacts": "contacts of spheres", "surfaces": "contacts with platens", "bodies": "platens, sleeve, machine",
+          "stable_step": "choice of the time step", "measures": "stresses and strains", "output": "writing of files"}
+
+
 def costs_of(run):
     """[(name, seconds, whether it is a part of the time steps), ...]: the largest first, the rest last; [] of a run that has not ended."""
     parts = run.info.get("stage_seconds")
     if not isinstance(parts, dict):
         return []
-    found = [(name.replace("_", " "), number_in(parts, name), True) for name in parts]
+    found = [(_PARTS.get(name, name), number_in(parts, name), True) for name in parts]
     found.append(("setting up", number_in(run.info, "setup_seconds"), False))
     found = sorted((cost for cost in found if cost[1] > 0), key=lambda cost: -cost[1])
     rest = number_in(run.info, "wall_seconds") - sum(cost[1] for cost in found)
@@ -453,4 +504,4 @@ def pictures_of_costs(run):
     """The Pictures of the section "Computing time"; none where the summary does not say it."""
     count, words = len(costs_of(run)), machine_words(run)
     caption = "Parts of the computing time. Blue: of the time steps; grey: outside them." + f" {words}." * bool(words)
-    return [chart("seconds", caption, costs, run=run, heights=0.4 + 0.26 * count, margin=1.2)] if count else []
+    return [chart("seconds", caption, costs, run=run, heights=0.4 + 0.26 * count, margin=1.75)] if count else []

@@ -9,7 +9,7 @@ import numpy
 from matplotlib.colors import Normalize
 
 from ..errors import InputError, OutputError
-from .house import MM, MPA, MS, VIRIDIS, Picture, colour_bar, over_cores, write_aside
+from .house import MM, MPA, VIRIDIS, Picture, colour_bar, over_cores, write_aside
 from .run import nearest, number_in, point_data, rows_of
 
 _REACH_IN_FILES, _REACH_IN_PICTURES, _FINENESS = 3.5, 5, 0.25  # of averages; of the nodes of pictures: mean radii
@@ -42,13 +42,6 @@ class Grid(namedtuple("Grid", "origin spacing nodes")):
 class Fields(namedtuple("Fields", "solid_share stress damage displacement strain body")):
     """A row a node; NaN where a node has no such number. Tension positive, tensors row by row. stress: n x 9, Pa; displacement: n x 3, m,
     and strain: n x 9, both None where they were not asked for."""
-
-
-def near_peak(run, series):
-    """In words for a caption: which frame of a series is shown."""
-    times = run.series(series).times
-    time = times[nearest(times, run.peak_time)]
-    return f"near the peak (frame at {time * MS:.3g} ms, peak at {run.peak_time * MS:.3g} ms)"
 
 
 def wendland(distance, reach):
@@ -289,6 +282,7 @@ def stress_flow(axes, run, shear=False, beside=False):
     low, high = ((grid.origin + grid.spacing * (end * grid.nodes - 0.5)) * MM for end in (0, 1))
     axes.imshow(image.reshape(grid.nodes[2], grid.nodes[0], 3), origin="lower", aspect="auto", extent=(low[0], high[0], low[2], high[2]))
     axes.set_box_aspect((high - low)[2] / (high - low)[0])
+    axes.invert_xaxis()  # as in all pictures of the specimen
     axes.grid(False)
     axes.tick_params(labelleft=not beside)
     axes.set(xlabel="x (mm)", ylabel="" if beside else "z (mm)", title="Largest shear stress (MPa)" if shear else "Vertical stress (MPa)")
@@ -302,9 +296,10 @@ def picture_of_stress_flow(run):
     height = min(4.6, 2.4 * ratio) if tall else 5.6 * ratio
     width = 0.72 + 0.95 + (0.72 + 2 * height / ratio if tall else 5.6)
     draws = [partial(stress_flow, run=run), partial(stress_flow, run=run, shear=True, beside=tall)]
-    caption = (f"Stress in the plane y = {_FINENESS * radius:.2g} mm {near_peak(run, 'specimen')}: vertical stress, compression positive, "
-               f"and the largest shear stress. Each value is an average over the spheres within {_REACH_IN_PICTURES * radius:.2g} mm. Each "
-               "colour scale covers 96 % of the values; smaller and larger ones have the colours of its ends. White: neither specimen nor "
-               "platen. Grey: rigid platens, which have no stress.")
+    rigid = bool(run.series("platens")) and "stress" not in run.grid("platens", run.peak_time).point_data
+    caption = (f"Stress in the plane y = {_FINENESS * radius:.2g} mm {run.near_peak('specimen')}: vertical stress, compression positive, "
+               f"and the largest shear stress; x points to the left. Each value is an average over the spheres within "
+               f"{_REACH_IN_PICTURES * radius:.2g} mm. Each colour scale covers 96 % of the values; smaller and larger ones have the "
+               f"colours of its ends. White: neither specimen nor platen.{' Grey: rigid platens, which have no stress.' * rigid}")
     rows = [draws] if tall else [[draw] for draw in draws]
     return Picture("stress_flow", caption, rows, height, width, raster=True, bar=True, titles=True)

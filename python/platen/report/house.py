@@ -9,6 +9,7 @@ import io
 import json
 import math
 import os
+import re
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from multiprocessing import get_context
@@ -52,7 +53,8 @@ def digits(value, factor=1.0):
 
 class Picture(NamedTuple):
     """name: of its files, without ending. rows: of each row of panels the functions draw(axes). heights: inches of each row,
-    or one for all. bar: room on the right for colour_bar. shared: all rows have one x axis, labelled at the lowest.
+    or one for all. bar: room on the right for colour_bar. shared: rows that have the x axis of the one above; True: all have one, labelled
+    at the lowest.
     raster: what it shows is an image, so the page holds a PNG; a chart is held as SVG. titles: room over panels for a title.
     margin: on the left (inches); with less than 0.3 there is no room for labels of axes."""
 
@@ -61,14 +63,14 @@ class Picture(NamedTuple):
     rows: list
     heights: object = 2.6
     width: float = 7.6
-    shared: bool = False
+    shared: object = ()
     raster: bool = False
     bar: bool = False
     titles: bool = False
     margin: float = 0.72
 
 
-def chart(name, caption, *draws, heights=2.6, width=7.6, shared=False, titles=False, margin=0.72, **of):
+def chart(name, caption, *draws, heights=2.6, width=7.6, shared=(), titles=False, margin=0.72, **of):
     """A Picture of charts one over another; of: what each function draws, by the name of its argument."""
     return Picture(name, caption, [[partial(draw, **of)] for draw in draws], heights, width, shared, titles=titles, margin=margin)
 
@@ -78,24 +80,26 @@ def figure_of(picture):
     time of a page."""
     heights, named = numpy.broadcast_to(picture.heights, len(picture.rows)).tolist(), picture.margin > 0.3
     bottom, right, top = (0.5 if named else 0.12), (0.95 if picture.bar else 0.15), (0.3 if picture.titles else 0.12)
-    between, gap = 0.14 if picture.shared else 0.55 + (0.3 if picture.titles else 0), 0.72 if named else 0.12
-    total = sum(heights) + bottom + top + between * (len(heights) - 1)
+    gap, shared = 0.72 if named else 0.12, range(1, len(heights)) if picture.shared is True else picture.shared
+    between = [0.14 if k in shared else 0.55 + (0.3 if picture.titles else 0) for k in range(1, len(heights))] + [0]
+    total = sum(heights) + bottom + top + sum(between)
     with matplotlib.rc_context(STYLE):
         figure = Figure(figsize=(picture.width, total))
         FigureCanvasAgg(figure)
         y, first = total - top, None
-        for line, height in zip(picture.rows, heights):
+        for row, (line, height) in enumerate(zip(picture.rows, heights)):
             y -= height
+            first = first if row in shared else None
             each = (picture.width - picture.margin - right - gap * (len(line) - 1)) / len(line)
             for k, draw in enumerate(line):
                 place = [(picture.margin + k * (each + gap)) / picture.width, y / total, each / picture.width, height / total]
-                axes = figure.add_axes(place, sharex=first if picture.shared else None)
+                axes = figure.add_axes(place, sharex=first if shared else None)
                 first = first or axes
                 draw(axes)
-                if picture.shared and line is not picture.rows[-1]:
+                if row + 1 in shared:
                     axes.tick_params(labelbottom=False, which="both")
                     axes.set_xlabel("")
-            y -= between
+            y -= between[row]
     return figure
 
 
@@ -126,7 +130,8 @@ def legend_above(axes, **more):
 def colour_bar(axes, colours, norm, label):
     """A scale beside the axes: the last panel of a Picture with `bar`."""
     if axes.get_aspect() == "auto":
-        scale = axes.inset_axes([1.03, 0.18, 0.045, 0.64])
+        inch = axes.figure.dpi / axes.bbox.width
+        scale = axes.inset_axes([1 + 0.12 * inch, 0.18, 0.13 * inch, 0.64])
     else:
         box, width = axes.get_position(), axes.figure.get_figwidth()
         scale = axes.figure.add_axes([1 - 0.82 / width, box.y0 + 0.18 * box.height, 0.13 / width, 0.64 * box.height])
@@ -134,15 +139,15 @@ def colour_bar(axes, colours, norm, label):
     scale.grid(False)
 
 
-def above(axes, x, words):
-    """Words over the axes."""
-    axes.annotate(words, (x, 1), xycoords=("data", "axes fraction"), ha="center", va="bottom", fontsize=8)
+def above(axes, x, words, **more):
+    """Words over the axes; inside at their top with va="top"."""
+    axes.annotate(words, (x, 1), xycoords=("data", "axes fraction"), fontsize=8, **{"ha": "center", "va": "bottom", **more})
 
 
 def span(axes, start, end, words=""):
-    """A grey stretch along x, with words at its top."""
+    """A grey stretch along x, with words inside at its top."""
     axes.axvspan(start, end, color=PALE, zorder=0)
-    above(axes, (start + end) / 2, words)
+    above(axes, start, words, ha="left", va="top")
 
 
 def scatter_bars(axes, x, low, high, colour):
@@ -176,8 +181,13 @@ def plain_decades(axis):
 
 
 # ---- files
+def _unit(title):
+    """" MPa", of "Axial stress (MPa)"; "" where it has none."""
+    return "".join(f" {unit}" for unit in re.findall(r"\(([^\s()]+)\)", title)[-1:])
+
+
 def _hover(figure, name):
-    """What the page's script needs to read values off a chart: boxes of axes in SVG's units, limits, labelled curves."""
+    """What the page's script needs to read values off a chart: boxes of axes in SVG's units, units, limits, labelled curves."""
     width, height = 72 * figure.get_figwidth(), 72 * figure.get_figheight()
     found = []
     for k, axes in enumerate(figure.axes):
@@ -185,13 +195,13 @@ def _hover(figure, name):
         for n, line in enumerate(axes.lines):
             if len(line.get_xdata()) > 1 and line.get_transform() == axes.transData:
                 line.set_gid(f"{name}-{k}-{n}")
-                label = line.get_label()
+                label = re.split(": (?:peak|largest stress) ", line.get_label())[0]  # values stand behind it
                 curves.append([line.get_gid(), "" if label.startswith("_") else label])
         if curves:
-            box = axes.get_position()
+            box, of_x = axes.get_position(), (other.get_xlabel() for other in axes.get_shared_x_axes().get_siblings(axes))
             found.append({"box": [round(v, 2) for v in (box.x0 * width, (1 - box.y1) * height, box.x1 * width, (1 - box.y0) * height)],
-                          "x": axes.get_xlim(), "y": axes.get_ylim(), "log": [axes.get_xscale() == "log", axes.get_yscale() == "log"],
-                          "curves": curves})
+                          "units": [_unit(next(filter(None, of_x), "")), _unit(axes.get_ylabel())], "x": axes.get_xlim(),
+                          "y": axes.get_ylim(), "log": [axes.get_xscale() == "log", axes.get_yscale() == "log"], "curves": curves})
     return json.dumps(found)
 
 

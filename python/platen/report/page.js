@@ -32,7 +32,7 @@
         log ? 10 ** (Math.log10(low) + share * Math.log10(high / low)) : low + share * (high - low);
       const x = value((best.x - x0) / (x1 - x0), best.axes.x, best.axes.log[0]);
       const y = value((y1 - best.y) / (y1 - y0), best.axes.y, best.axes.log[1]);
-      shown.textContent = `${best.label ? best.label + ": " : ""}${short(x)}, ${short(y)}`;
+      shown.textContent = `${best.label ? best.label + ": " : ""}${short(x)}${best.axes.units[0]}, ${short(y)}${best.axes.units[1]}`;
       shown.style.left = `${event.pageX + 12}px`, shown.style.top = `${event.pageY - 28}px`;
     });
   }

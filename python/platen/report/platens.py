@@ -8,7 +8,7 @@ import numpy
 from matplotlib.colors import Normalize
 
 from ..errors import InputError
-from .fields import has_stress, near_peak, picture_of_stress_flow
+from .fields import has_stress, picture_of_stress_flow
 from .house import BLACK, BLUE, GREEN, GREY, MM, MPA, MS, VERMILION, VIRIDIS, Picture, above, chart, colour_bar, legend_above, span
 from .run import number_with_unit, point_data
 
@@ -79,6 +79,11 @@ def is_glued(run):
     return run.entry("Platens/Attachment") == "glued"
 
 
+def sides_with_friction(run):
+    """Those to which spheres are neither glued nor pressed without friction, as the scene says."""
+    return [side for side in sides_of(run) if not is_glued(run) and friction_limits(run, side) != (0, 0)]
+
+
 def friction_words(run):
     """Coefficients of friction of each platen, ["bottom 0.57, sliding 0.5"], or ["glued"]; [] where the scene says none."""
     if is_glued(run):
@@ -107,12 +112,12 @@ def friction_state(contacts):
 def _states(run):
     """By side: frames x (share, friction, slip) x (value, error)."""
     return {side: numpy.array([friction_state(contacts_of(run, side, time)) for time in run.series("contacts").times])
-            for side in sides_of(run)}
+            for side in sides_with_friction(run)}
 
 
 def has_friction(run):
-    """Whether spheres press on top or bottom, which they are not glued to, in any frame."""
-    return not is_glued(run) and any(numpy.isfinite(_states(run)[side][:, 1, 0]).any() for side in ("bottom", "top"))
+    """Whether spheres press on a top or bottom with friction in any frame."""
+    return any(numpy.isfinite(states[:, 1, 0]).any() for side, states in _states(run).items() if side in ("bottom", "top"))
 
 
 def _over_time(axes, run, title, words=False):
@@ -121,7 +126,7 @@ def _over_time(axes, run, title, words=False):
         span(axes, run.h["time_s"][0] * MS, run.h["time_s"][run.zero] * MS, "consolidation" if words else "")
     axes.axvline(run.peak_time * MS, color=GREY, lw=0.8)
     if words:
-        above(axes, run.peak_time * MS, "peak")
+        above(axes, run.peak_time * MS, run.peak_words, va="top", bbox={"fc": "w", "ec": "none", "pad": 1})
     axes.set(xlabel="Time (ms)", ylabel=title, xlim=(0, run.end_time * MS))
 
 
@@ -151,11 +156,11 @@ def friction(axes, run, which="friction"):
 
 def friction_work(axes, run):
     """Work of friction over time: of each platen where the history has it, and of all."""
-    for side in sides_of(run):
+    for side in sides_with_friction(run):
         if run.has(f"friction_work_{side}_j"):
             axes.plot(run.h["time_s"] * MS, run.h[f"friction_work_{side}_j"], label=side, **SIDES[side].look)
     if run.has("friction_work_j"):
-        axes.legend(handles=axes.plot(run.h["time_s"] * MS, run.h["friction_work_j"], color=BLACK, label="platens and grains"),
+        axes.legend(handles=axes.plot(run.h["time_s"] * MS, run.h["friction_work_j"], color=BLACK, label="platens and spheres"),
                     loc="upper left")
     _over_time(axes, run, "Work (J)")
 
@@ -181,8 +186,8 @@ def ring_profile(contacts, radius, rings=_RINGS):
 
 
 def profile(axes, run, shear=False):
-    """Pressure on both platens, or shear on the ends, over the radius near the peak. Round specimens."""
-    for side in ("bottom", "top"):
+    """Pressure on both platens, or shear on the ends that have any, over the radius near the peak. Round specimens."""
+    for side in [side for side in ("bottom", "top") if not shear or is_glued(run) or side in sides_with_friction(run)]:
         middle, *stresses, n = ring_profile(contacts_of(run, side, run.peak_time), run.extent.half_width)
         value, error = stresses[shear] * MPA
         axes.errorbar(middle * MM, value, error, label=f"{side} platen", capsize=3, elinewidth=0.8, marker="os"[side == "top"],
@@ -281,10 +286,10 @@ def strip_loads(axes, run):
 
 
 # ---- pictures
-def _faces(name, caption, draw, run, bar):
-    """A Picture of all sides with platens; of more than two, the low ones are below the high ones of their axis."""
-    sides, size = sides_of(run), _face_size(run)
-    rows = [sides] if len(sides) == 2 else [sides[1::2], sides[::2]]
+def _faces(name, caption, draw, run, sides, bar):
+    """A Picture of sides; of more than two, the low ones are below the high ones of their axis."""
+    size = _face_size(run)
+    rows = [sides] if len(sides) <= 2 else [[side for side in sides if SIDES[side].high == high] for high in (1, 0)]
     width = (7.6 - 0.72 * len(rows[0]) - (0.95 if bar else 0.15)) / len(rows[0])
     draws = [[partial(draw, run=run, side=side, **({"bar": side == rows[0][-1]} if bar else {})) for side in row] for row in rows]
     return Picture(name, caption, draws, width * size[1] / size[0], bar=bar, titles=True)
@@ -302,20 +307,22 @@ def pictures_of_ends(run):
             "platen does not slide as a whole while its friction is below the limit. Shaded: one standard error by the scatter of the "
             "spheres.", *(partial(friction, which=which) for which in ("share", "friction", "slip")), friction_work, run=run,
             heights=[1.5, 1.9, 1.5, 1.5], shared=True, titles=True))
-    near, of_spheres = near_peak(run, "contacts"), "one standard error by the scatter of the spheres"
+    near, of_spheres = run.near_peak("contacts"), "one standard error by the scatter of the spheres"
     if has_strips(run):
         found.append(chart("strip_loads", f"Load along each strip {near}. Under an even load all steps have one height. Error bars: "
                            f"{of_spheres} in a step.", strip_loads, run=run, heights=3, titles=True))
     elif has_further_sides(run) or run.extent.form == "box":
         found.append(_faces("side_pressure", f"Pressure on each platen over the face of the specimen {near}, over the mean of that platen. "
                             "A square has an edge of two spheres, so single spheres show. In dark squares the pressure is small or zero.",
-                            face, run, bar=True))
+                            face, run, sides_of(run), bar=True))
     elif run.extent.form == "cylinder":
+        sheared = is_glued(run) or sides_with_friction(run)
         found.append(chart(
-            "platen_pressure", f"Pressure on the platens and shear on the ends over the radius {near}, in five rings of equal area. Inward "
-            f"shear confines an end; negative pressure is tension. Error bars: {of_spheres} in a ring; a mark with a white centre: fewer "
-            f"than {_FEW} spheres.", profile, partial(profile, shear=True), run=run, heights=2.4, shared=True, titles=True))
-    if not is_glued(run):
+            "platen_pressure", f"Pressure on the platens{' and shear on the ends' if sheared else ''} over the radius {near}, in five "
+            f"rings of equal area. {'Inward shear confines an end; negative' if sheared else 'Negative'} pressure is tension. Error bars: "
+            f"{of_spheres} in a ring; a mark with a white centre: fewer than {_FEW} spheres.", profile,
+            *([partial(profile, shear=True)] if sheared else []), run=run, heights=2.4, shared=True, titles=True))
+    if sides_with_friction(run):
         found.append(_faces("stick_slip", f"Spheres at each platen {near}: which stick and which slide. The larger a mark, the larger its "
-                            "pressing force.", stick_and_slip, run, bar=False))
+                            "pressing force.", stick_and_slip, run, sides_with_friction(run), bar=False))
     return found

@@ -14,6 +14,8 @@ from ..results import Run, read_json, read_table
 
 # Columns of stress and strain along x, y, z; of the low platen first.
 STRESS = (("stress_left_pa", "stress_right_pa"), ("stress_front_pa", "stress_back_pa"), ("axial_stress_bottom_pa", "axial_stress_top_pa"))
+_NEAR = 0.05  # of the time to the peak
+_BACK = 0.05  # of the largest strain
 STRAIN = ("strain_x", "strain_y", "axial_strain_platen")
 _PREFIX = {"": 1, "p": 1e-12, "n": 1e-9, "u": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6, "G": 1e9, "T": 1e12}
 _UNIT = {"m": 1, "s": 1, "N": 1, "Pa": 1, "J": 1, "rad": 1, "bar": 1e5, "g": 1e-3, "psi": 6894.757293168361}
@@ -208,9 +210,10 @@ class TestRun(Run, Results):
     """A platen.Run as a test. All times in s, stresses in Pa, strains as fractions, compression positive.
 
     h: its history. axis: that is loaded, 0 ... 2; strain: between the platens along it, one a row. zero: the row at the end of
-    consolidation, from which strains count; rows: from it on. peak_row, peak_time, peak_stress; peak_reached: whether it went over
-    its peak, None where the summary does not say. fall_time: of the fall to 0.8 of the peak, None where it did not come. end_time.
-    pattern_time, pattern_words: when the crack pattern is judged, at the fall, or at the end. remarks: what its files lack.
+    consolidation, from which strains count; rows: from it on; goes_back: whether the strain does, as in unloading. peak_row, peak_time,
+    peak_stress; peak_reached: whether it went over its peak, None where the summary does not say; peak_words: "peak", or "largest stress"
+    where that is no strength. fall_time: of the fall to 0.8 of the peak, None where it did not come. end_time. pattern_time,
+    pattern_words: when the crack pattern is judged, at the fall, or at the end. remarks: what its files lack.
     """
 
     __test__ = False  # no test of pytest
@@ -229,6 +232,9 @@ class TestRun(Run, Results):
         self.strain, self.strain_origin = self.since(STRAIN[self.axis]), " from the end of consolidation" if self.zero > 0 else ""
         stress, strain = (f"Axial {of}" if self.axis == 2 else f"{of.capitalize()} along {'xyz'[self.axis]}" for of in ("stress", "strain"))
         self.stress_title, self.strain_title = f"{stress} (MPa)", f"{strain} between platens{self.strain_origin} (mm/m)"
+        for column, across in (("deflection_m", "depth"), ("opening_m", "diameter")):  # bars and discs have no strain between platens
+            if self.has(column):
+                self.strain_title = f"Closure over the {across} (mm/m)"
         for file, without in _WITHOUT.items():
             if not (self.folder / file).is_file():
                 self.remarks.append(f"{file} is not there{without}")
@@ -246,14 +252,21 @@ class TestRun(Run, Results):
             self.remarks.append(f"history.csv has {(~finite).sum()} of {len(stress)} rows without a stress, the first at the time "
                                 f"{time[~finite][0]:.6g} s: the largest may be one of them")
         self.zero = self._told_row("consolidation_end_time_s", 0)
+        if self.zero > len(time) - 3:  # all of a hydrostatic test is consolidation
+            self.zero = 0
         self.rows = slice(self.zero, None)
+        strain = numpy.nan_to_num(self.since(STRAIN[self.axis])[self.rows])
+        back = numpy.maximum.accumulate(numpy.abs(strain)) - numpy.abs(strain)
+        self.goes_back = bool(back.max() > _BACK * numpy.abs(strain).max())
         self.peak_row = self._told_row("peak_time_s", int(numpy.abs(numpy.where(finite, stress, 0)).argmax()))
         self.peak_time, self.peak_stress, self.end_time = float(time[self.peak_row]), float(stress[self.peak_row]), float(time[-1])
         told = number_in(self.info, "fall_time_s") if "fall_time_s" in self.info else self._fall(stress, time)
-        self.fall_time, self.pattern_time, self.pattern_words = told, told, "the fall to 0.8 of the peak"
+        failed = not math.isnan(told) if self.peak_reached is None else self.peak_reached
+        self.peak_words = "peak" if failed and not listed(self.info.get("validity"), "strength_pa", object) else "largest stress"
+        self.fall_time, self.pattern_time, self.pattern_words = told, told, f"the fall to 0.8 of the {self.peak_words}"
         if math.isnan(told):
             self.fall_time, self.pattern_time, self.pattern_words = None, self.end_time, "the end"
-            self.remarks.append("the stress did not fall to 0.8 of the peak: crack patterns are shown at the end")
+            self.remarks.append(f"the stress did not fall to 0.8 of the {self.peak_words}: crack patterns are shown at the end")
 
     def _fall(self, stress, time):
         """s, interpolated; NaN where the stress never fell to 0.8 of the peak."""
@@ -276,6 +289,14 @@ class TestRun(Run, Results):
     def since(self, column):
         """A column less what it was at the end of consolidation."""
         return self.h[column] - self.h[column][self.zero]
+
+    def near_peak(self, series):
+        """In words: how near to the peak the frame of a series is that is drawn for it."""
+        times = self.series(series).times
+        time = float(times[nearest(times, self.peak_time)])
+        if abs(time - self.peak_time) <= _NEAR * self.peak_time:
+            return f"near the {self.peak_words}"
+        return f"at {time * 1e3:.4g} ms ({100 * time / (self.peak_time or math.inf):.0f} % of the time to the {self.peak_words})"
 
     def series(self, name):
         """Frames of specimen, bonds, platens, contacts, sleeve; None where the run wrote none."""

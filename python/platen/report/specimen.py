@@ -20,8 +20,7 @@ FRAGMENTS = numpy.array([to_rgb(c) for c in ("#e1e1e1", GREEN, PURPLE, SKY, "#f0
 WITH_PLATENS = numpy.array([to_rgb(c) for c in ("#e1e1e1", BLUE, ORANGE)])
 SMALLEST = 30  # spheres of a fragment that has a colour
 _DAMAGE = "coloured by the broken fraction of the bonds of each sphere. Grey: no bond is broken."
-_FRAGMENTS = (f"Each colour is a fragment of {SMALLEST} or more spheres that intact bonds connect; green is the largest. Grey: "
-              "smaller fragments.")
+_FRAGMENTS = f"Each colour is a fragment of {SMALLEST} or more spheres that intact bonds connect. Grey: smaller fragments."
 FOOT = 0.48  # inches, of a colour bar below a panel
 
 
@@ -69,11 +68,14 @@ def field(axes, run, time, values, label, title="", norm=None, colours=VIRIDIS, 
             colour_bar(axes, colours, norm, label)
         return
     top = top_of(values if more.get("whole") else values[half(run.spheres(time))])
+    if 0 < top < 0.01:  # numbers of the scale stay short
+        values, top, label = values * 1e3, top * 1e3, label.replace("(mm)", "(µm)")
     norm = Normalize(0, top or 1)
     draw(axes, run, time, colours(norm(values))[:, :3], title, foot=FOOT, **more)
     inch = axes.figure.dpi / axes.bbox.height
     if top == 0:
-        axes.text(0.5, 0.02 * inch, f"{label}: not above 0", transform=axes.transAxes, ha="center", va="bottom")
+        axes.text(0.5, 0.02 * inch, f"{label}:\n{'not above 0' if values.any() else 'zero everywhere'}", transform=axes.transAxes,
+                  ha="center", va="bottom")
     else:
         axes.figure.colorbar(ScalarMappable(norm, colours), cax=axes.inset_axes([0.2, 0.32 * inch, 0.6, 0.1 * inch]),
                              orientation="horizontal", label=label, extend="max", ticks=MaxNLocator(3))
@@ -175,23 +177,25 @@ def cones(axes, run, time, title="", **more):
             places = numpy.insert(section(cone.turned(turn), base, extent.half_width), 1, 0, axis=1) + turn @ carried(cone, spheres)
             for colour, width in (("white", 3.5), ("black", 1.5)):
                 scene.line(places, color=colour, lw=width)
-            names = ("half-angle ", "r0 = ", "confidence\n") if axes.bbox.width > 2.5 * axes.figure.dpi else ("", "", "")
+            names = ("half-angle ", "r0 = ", "confidence ") if axes.bbox.width > 2.5 * axes.figure.dpi else ("", "", "")
             values = (f"{math.degrees(cone.half_angle):.0f}°", f"{cone.base:.2f}", f"{cone.confidence:.2f}")
-            words = "\n".join(map(str.__add__, names, values))
-        height = float(seen([[0, 0, base + sign * 0.09 * extent.height]])[1])
-        axes.text(0.01, height, words, transform=axes.get_yaxis_transform(), va="center", fontsize=8, path_effects=HALO)
+            words = ", ".join(map(str.__add__, names, values))
+        height = float(seen([[0, 0, base - sign * 0.05 * max(extent.height, 2 * extent.half_width)]])[1])
+        axes.text(0, height, words, ha="center", va="center", fontsize=8, path_effects=HALO)  # on the platen, beside the outline
 
 
 def cones_caption(run):
-    text = ""
+    text, found = "", False
     for final, when in ((False, run.pattern_words), (True, "the end")):
         both = {end: cone_of(run, end, final) for end in ("top", "bottom")}
         if any(cone is not None for cone in both.values()):
             words = {end: cone.words if cone else "not measured" if cone is None else "none" for end, cone in both.items()}
+            found |= any(both.values())
             text += f" Cones at {when}, half-angles: on the top platen {words['top']}, on the bottom platen {words['bottom']}."
-    return ("Half specimen, cut along the axes of the cones. Blue spheres have moved with the bottom platen since the peak, orange "
-            f"ones with the top platen.{text} Outlines: the cones fitted to these spheres, with the measured radius at the platen: r0 "
-            "times that of the specimen.")
+    cut = "along the axes of the cones" if found and run.extent.form == "cylinder" else "at y = 0"
+    return (f"Half specimen, cut {cut}. Blue spheres have moved with the bottom platen since the {run.peak_words}, orange ones with the "
+            f"top platen.{text}" + found * (" Outlines: the cones fitted to these spheres, with the measured radius at the platen: r0 "
+                                            "times that of the specimen."))
 
 
 def _with_cones(shown):
@@ -215,20 +219,22 @@ def pictures_of_specimen(run):
     if not run.series("specimen"):
         return []
     end = (run, run.end_time, "at the end")
-    moments = [(run, run.start.time, "before the test"), (run, run.peak_time, "near the peak"), end]
+    moments = [(run, run.start.time, "before the test"), (run, run.peak_time, run.near_peak("specimen")), end]
     judged = [end] if run.fall_time is None else [(run, run.fall_time, f"at {run.pattern_words}"), end]
     scales = "Each panel has its own scale. The largest 5 % have the last colour."
+    dark = any(cone_of(run, side, final) for side in ("top", "bottom") for final in (False, True))
+    with_green = any((fragment_colours(run.spheres(time)) == 1).any() for _, time, _ in judged)
     aside = " The platen in front of it is not drawn." if has_further_sides(run) else ""
     return [
         *_row("specimen_outside", f"The specimen from outside, along y and a little from above; x points to the left.{aside} Colours: "
               f"displacement of each sphere. {scales}", displacement, moments, foot=FOOT, whole=True),
         *_row("specimen_inside", f"The same specimen cut in half at y = 0. {scales}", displacement, moments, foot=FOOT),
         *_row("outward_displacement", "Half specimen, coloured by the displacement of each sphere away from the "
-              f"{'plane x = 0' if run.extent.is_plane else 'axis'}. Cones are dark; the material that they push aside is light. Inward "
-              f"displacement has the colour of 0. {scales}", outward_displacement, judged, foot=FOOT),
+              f"{'plane x = 0' if run.extent.is_plane else 'axis'}.{' Cones are dark; the material that they push aside is light.' * dark} "
+              f"Inward displacement has the colour of 0. {scales}", outward_displacement, judged, foot=FOOT),
         *_row("damage", f"Half specimen, {_DAMAGE}", damage, judged, True),
         *_row("cones", cones_caption(run), cones, _with_cones(judged)),
-        *_row("fragments", f"Half specimen. {_FRAGMENTS}", fragments, judged)]
+        *_row("fragments", f"Half specimen. {_FRAGMENTS}{' Green: the largest.' * with_green}", fragments, judged)]
 
 
 def comparison(runs):
@@ -328,7 +334,7 @@ def pictures_of_sleeve(run):
     if not run.series("sleeve") or not run.series("specimen"):
         return []
     zero = (float(run.h["time_s"][run.zero]), "after consolidation" if run.zero > 0 else "before the test")
-    later = [(run.peak_time, "near the peak"), (run.end_time, "at the end")]
+    later = [(run.peak_time, run.near_peak("sleeve")), (run.end_time, "at the end")]
     rows = [[partial(unrolled, run=run, time=time, title=f"{when}: {words}", which=which, factor=factor, left=k == 0)
              for k, (time, when) in enumerate(later)]
             for which, factor, words in ((0, 100, "circumferential stretch (%)"), (2, MPA, "pressure of the spheres (MPa)"),

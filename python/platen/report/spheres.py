@@ -5,8 +5,10 @@ from matplotlib.colors import LinearSegmentedColormap
 
 from ..errors import InputError
 from .house import DPI, Picture
+from .run import is_round
 
 RISE = 0.12  # tangent of the angle from above, about 7 degrees
+_ROUND = 96  # sides of a platen that is round
 FINE = 2  # so many times finer than it is shown, so that edges are smooth
 LIGHTS = ((0.8, (-0.6, 0.8, 1)), (0.3, (0.7, 0.1, 1)))  # strength, and where it comes from: right, up, towards the eye
 STEEL, RUBBER = (0.62, 0.66, 0.70), (0.55, 0.43, 0.40)
@@ -49,6 +51,37 @@ def surface(grid, where):
     return faces[first[count == 1]]
 
 
+def boxes_of(grid, where):
+    """Of each body of elements that share corners: [low x, y, z, high x, y, z (m), 1 where it is round about z, else 0], in the order of
+    their first elements: two supports are two."""
+    corners = hexahedra(grid, where)
+    places = joined(grid.points)[corners]
+    label = numpy.arange(places.max() + 1)
+    while True:  # each place takes the smallest number of its element, until nothing changes
+        before = label.copy()
+        numpy.minimum.at(label, places, label[places].min(1)[:, None])
+        label = label[label]
+        if numpy.array_equal(label, before):
+            break
+    body, boxes = label[places[:, 0]], []
+    for one in dict.fromkeys(body.tolist()):
+        points = grid.points[corners[body == one]].reshape(-1, 3).astype(float)
+        low, high = points.min(0), points.max(0)
+        reach = numpy.hypot(*(points - (low + high) / 2)[:, :2].T).max()
+        boxes.append([*low.round(7).tolist(), *high.round(7).tolist(), int(is_round(reach, *(high - low)[:2] / 2))])
+    return boxes
+
+
+def cylinder(box):
+    """Points and faces (see Scene.mesh) of the upright cylinder in one of boxes_of."""
+    low, high, n = numpy.array(box[:3]), numpy.array(box[3:6]), _ROUND
+    turn, k, m = 2 * numpy.pi / n * numpy.arange(n), numpy.arange(n), numpy.arange(n // 2 - 1)
+    rim = (low + high)[:2] / 2 + (high - low)[:2] / 2 * numpy.column_stack([numpy.cos(turn), numpy.sin(turn)])
+    around, top = [k, (k + 1) % n, n + (k + 1) % n, n + k], [n + m, n + m + 1, 2 * n - 2 - m, 2 * n - 1 - m]
+    faces = numpy.hstack([around, top, numpy.subtract(top[::-1], n)]).T
+    return numpy.vstack([numpy.insert(rim, 2, z, axis=1) for z in (low[2], high[2])]), faces
+
+
 def _shade(right, up, near):
     """How bright a face with this normal is."""
     bright = 0.3
@@ -78,7 +111,7 @@ class Scene:
     scene = Scene(axes, run.extent) scene.spheres(position, radius, colour) scene.show()
     """
 
-    def __init__(self, axes, extent, size=None, margin=0.12, foot=0.0):
+    def __init__(self, axes, extent, size=None, margin=0.15, foot=0.0):
         """size: half width and height (m) to hold, where not the extent's; margin: what is seen around it, over its longer side;
         foot: inches left empty below."""
         self.axes = axes
@@ -197,8 +230,14 @@ class Scene:
         self._put(at, nearest[at], shade[at], numpy.zeros(len(at), "i4"), [colour])
 
     def bodies(self, grid, where, colour=STEEL, before=numpy.inf, turn=None):
-        """A frame of platens or of a sleeve; turn: 3 x 3, of its places."""
-        self.mesh(grid.points if turn is None else grid.points @ turn.T, surface(grid, where), colour, before)
+        """A frame of platens or of a sleeve; turn: 3 x 3, of its places. Rigid round platens, whose elements are few, are drawn round."""
+        boxes, meshes = boxes_of(grid, where), [(grid.points, surface(grid, where))]
+        across, heights = (len(numpy.unique(grid.points[:, axes].round(7), axis=0)) for axes in ([0, 1], [2]))
+        upright = joined(grid.points).max() + 1 == across * heights  # no dome
+        if upright and all(box[6] for box in boxes) and colour is STEEL and "stress" not in grid.point_data:
+            meshes = map(cylinder, boxes)
+        for points, faces in meshes:
+            self.mesh(points if turn is None else points @ turn.T, faces, colour, before)
 
     def line(self, places, **more):
         """n x 3 places joined by a line, over all else."""
@@ -217,7 +256,7 @@ class Scene:
         self.axes.axis("off")
 
 
-def panels(name, caption, draws, extents, bar=False, foot=0.0, margin=0.12):
+def panels(name, caption, draws, extents, bar=False, foot=0.0, margin=0.15):
     """A Picture of scenes that hold the largest of the extents, in rows of at most four, as high as they need."""
     across = min(4, len(draws))
     draws = draws + [lambda axes: axes.axis("off")] * (-len(draws) % across)

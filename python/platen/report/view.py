@@ -9,9 +9,9 @@ import numpy
 from ..errors import InputError
 from .cracks import cracks_until
 from .house import MM, MPA
-from .run import is_round, nearest
+from .run import nearest
 from .specimen import faces_of, same
-from .spheres import hexahedra, joined
+from .spheres import boxes_of, joined
 
 HERE = Path(__file__).resolve().parent / "viewer"
 MOST_FRAMES = 20
@@ -26,27 +26,6 @@ def frames_to_show(count, most, wanted):
         shown = sorted({*wanted, 0, count - 1, *(k * (count - 1) // max(1, between - 1) for k in range(between))})
         if len(shown) <= most:
             return shown
-
-
-def boxes_of(grid, where):
-    """Of each body of elements that share corners: [low x, y, z, high x, y, z (m), 1 where it is round about z, else 0], in the order of
-    their first elements: two supports are two."""
-    corners = hexahedra(grid, where)
-    places = joined(grid.points)[corners]
-    label = numpy.arange(places.max() + 1)
-    while True:  # each place takes the smallest number of its element, until nothing changes
-        before = label.copy()
-        numpy.minimum.at(label, places, label[places].min(1)[:, None])
-        label = label[label]
-        if numpy.array_equal(label, before):
-            break
-    body, boxes = label[places[:, 0]], []
-    for one in dict.fromkeys(body.tolist()):
-        points = grid.points[corners[body == one]].reshape(-1, 3).astype(float)
-        low, high = points.min(0), points.max(0)
-        reach = numpy.hypot(*(points - (low + high) / 2)[:, :2].T).max()
-        boxes.append([*low.round(7).tolist(), *high.round(7).tolist(), int(is_round(reach, *(high - low)[:2] / 2))])
-    return boxes
 
 
 def pack(run, most_frames=MOST_FRAMES):
