@@ -11,7 +11,7 @@ struct Argument {
   const char *name;                                                               // "--steps"
   std::variant<int *, std::vector<int> *, double *, bool *, std::string *> value; // a bool is a switch
   const char *meaning;
-  double low = 0, high = 0;       // of numbers, both allowed
+  double low = 0, high = 0;            // of numbers, both allowed
   std::vector<std::string> words = {}; // that a text may be; none: any
 };
 
