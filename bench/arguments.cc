@@ -19,6 +19,8 @@ void read_arguments(int argc, char **argv, const char *title, const std::vector<
             CLI::Option *option = app.add_option(a.name, *value, a.meaning)->capture_default_str();
             if constexpr (!std::is_same_v<Value, std::string>)
               option->check(CLI::Range(a.low, a.high));
+            else if (a.is_file)
+              option->check(CLI::ExistingFile);
             else if (!a.words.empty())
               option->check(CLI::IsMember(a.words));
           }

@@ -13,6 +13,7 @@ struct Argument {
   const char *meaning;
   double low = 0, high = 0;            // of numbers, both allowed
   std::vector<std::string> words = {}; // that a text may be; none: any
+  bool is_file = false;                // of a text: it names a file that is there
 };
 
 // Ends the program after --help, and with an error where an argument is not as its list says.

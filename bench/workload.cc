@@ -52,7 +52,7 @@ std::vector<Argument> Workload::arguments(bool of_law, const std::vector<Argumen
   std::vector<Argument> all{{"--particles", &particles, "spheres of 1 mm radius", 100, 2e7},
                             {"--steps", &steps, "steps per repeat", 1, 1e9},
                             {"--repeats", &repeats, "repeats; the median is printed", 1, 1000},
-                            {"--specimen", &read, "a packing from this file instead"}};
+                            {"--specimen", &read, "a packing from this file instead", 0, 0, {}, true}};
   std::vector<std::string> words;
   for (const auto &[word, set] : laws)
     words.push_back(word);

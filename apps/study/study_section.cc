@@ -67,7 +67,7 @@ Varied read_varied(const std::string &text) {
   if (varied.values.empty()) throw ValueError("has no value");
   for (const std::vector<std::string> &values : varied.values)
     if (values.size() != varied.paths.size())
-      throw ValueError("holds a case of " + std::to_string(values.size()) + " values for " +
+      throw ValueError("holds a case that has not one value for each of its " +
                        std::to_string(varied.paths.size()) + " entries");
   return varied;
 }

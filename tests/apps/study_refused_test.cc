@@ -108,7 +108,7 @@ TEST(RefusedStudy, of_any_entries) {
        {{"Study/Vary 1 = Specimen/Height & Specimen/Height: 9 mm & 8 mm"}, "a second time"},
        {{"Study/Vary 1 = Specimen/Height & Scene/Seed: 9 mm & 2"}, "which is of the study itself"},
        {{"Study/Vary 1 = Specimen/Height & Platens/Friction static: 9 mm & 0.2, 8 mm"},
-        "holds a case of 1 values for 2 entries"},
+        "holds a case that has not one value for each of its 2 entries"},
        {{"Study/Vary 1 = Specimen/Height & Platens/Friction static: 9 mm & 0.2, 9 mm & 0.2"},
         "holds 9 mm & 0.2 twice"},
        {{"Study/Vary 1 = Platens/Friction static: 0.2, -1"}, "friction_static_-1"}});

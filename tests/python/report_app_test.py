@@ -192,8 +192,11 @@ class Words(Folder):
                       words.verdict([self.results(expectations=[met, missed])])[0])
         self.assertEqual(words.verdict([self.results(status="stopped", signs_of_haste=["36 wave crossings"])]),
                          ["The run has not ended: its figures are of the part that ran. Not quasi-static: 36 wave crossings. Strength 30 MPa, valid."])
-        self.assertEqual(words.verdict([self.results(targets=[{}, {}])])[0], "All targets met on unseen packings: 2.")
-        self.assertEqual(words.verdict([self.results(targets=[{}, {}], targets_missed=["E"])])[0], "Not met: 1 target.")
+        for one, sentence in (({"met": True}, "All 2 targets met on unseen packings."),
+                              ({"met_in_training": True}, "All 2 targets met on the packings calibrated on, and not judged on others."),
+                              ({"met": False, "met_in_training": True}, "Strength 30 MPa, valid.")):
+            self.assertEqual(words.verdict([self.results(targets=[one, one])])[0], sentence)
+        self.assertEqual(words.verdict([self.results(targets=[{"met": True}], targets_missed=["E"])])[0], "Not met: 1 target.")
         self.assertEqual(words.verdict([self.results(strength_pa=None, validity={"strength_pa": ["no peak was reached"]})]),
                          ["No strength: no peak was reached."])
         self.assertEqual(words.verdict([self.results(validity={"strength_pa": ["too fast"]})]), ["Strength 30 MPa, not valid: too fast."])
@@ -209,6 +212,8 @@ class Words(Folder):
         self.assertEqual(table.rows[3][3], "not checked: no peak")
         strain = {"entry": "Expect/strain_at_peak_platen", "range": "0.0021 ... 3e-3", "value": 0.00243, "met": True}
         self.assertEqual(words.table_of_expectations([self.results(expectations=[strain])]).rows[0][1:3], ["2.1 mm/m ... 3 mm/m", "2.43 mm/m"])
+        ratio = {"entry": "Expect/strain_ratio", "range": "0.2 ... 0.3", "value": 0.25, "met": True}
+        self.assertEqual(words.table_of_expectations([self.results(expectations=[ratio])]).rows[0][1:3], ["0.2 ... 0.3", "0.25"])
 
     def test_figures_have_four_digits_and_ratios_only_where_they_mean_something(self):
         runs = [report.TestRun(summary(self.folder / name, strength_pa=strength, dead_zone_top={"base_ratio": r}, dead_zone_bottom={"base_ratio": 0.9},

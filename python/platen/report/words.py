@@ -136,7 +136,8 @@ def _of_the_run(results):
 def verdict(all_results):
     """Sentences: targets, what makes all figures doubtful, strength and its validity, whether what the scenes expect came."""
     missed = sum(len(listed(results.info, "targets_missed", str)) for results in all_results)
-    targets = sum(len(listed(results.info, "targets")) for results in all_results)
+    targets = [one.get("met", one.get("met_in_training")) for results in all_results for one in listed(results.info, "targets")]
+    unseen = all("met" in one for results in all_results for one in listed(results.info, "targets"))
     said = [_name(results, all_results) + text for results in all_results for text in (*_of_the_run(results), _of_strength(results)) if text]
     judged = [one for results in all_results for one in listed(results.info, "expectations")]
     met, lost = ([one for one in judged if one.get("met") is how] for how in (True, False))
@@ -149,7 +150,8 @@ def verdict(all_results):
         start = f"Not as expected: {len(lost)} of {figures} not met ({names})" if lost else f"{len(met)} of {figures} met"
         said.append(start + (f", {unchecked} not checked." if unchecked else "."))
     first = [f"Not met: {missed} target{'s' if missed > 1 else ''}."] if missed else []
-    first += [f"All targets met on unseen packings: {targets}."] if targets and not missed else []
+    if targets and not missed and all(targets):
+        first = [f"All {len(targets)} targets met on {'unseen packings' if unseen else 'the packings calibrated on, and not judged on others'}."]
     return first + ([" ".join(said)] if said else [])
 
 
@@ -163,7 +165,7 @@ def _in_unit_of(one):
     ends = [end for end in wanted.split("...") if not math.isnan(number_with_unit(end))]
     units = [end.strip().partition(" ")[2].strip() for end in ends] + [unit for ending, unit in ENDINGS if entry.endswith(ending)]
     unit = next(filter(None, units), "")
-    if "strain" in entry and not unit:
+    if re.search(r"strain(?!_ratio)", entry) and not unit:
         unit, wanted = "mm/m", re.sub(r"[-+]?\d*\.?\d+(?:[eE][-+]?\d+)?", lambda one: f"{1e3 * float(one[0]):.4g} mm/m", wanted)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return wanted, value if isinstance(value, str) else "-"
@@ -194,7 +196,7 @@ def _facts(results):
     entry, info = results.entry, results.info
     number = lambda key: digits(number_in(info, key))  # noqa: E731
     shape, over, app = entry("Specimen/Shape"), listed(info, "overridden"), info.get("app")
-    varied = " ".join(map(str, listed(info, "varied", str))) + info.get("kind", "")  # of a study: not the same in all cases
+    varied = " ".join(map(str, listed(info, "varied", str))) + str(info.get("kind", ""))  # of a study: not the same in all cases
     sizes = [f"{word} {entry('Specimen/' + key)}" for key, word in (
         ("Radius", "radius"), ("Width x", "width"), ("Width y", "depth"), ("Height", "thickness" if shape == "disc" else "height"))
         if entry("Specimen/" + key) and not (word == "height" and re.search("height|slenderness|friction|size", varied))]
