@@ -1,7 +1,10 @@
-// The engine: what the programs do once a command line and a scene are accepted, with finite elements,
-// solvers and VTK. The program loads it only for this (apps/platen.cc).
+// The engine: what the programs do once a command line and a scene are accepted, with VTK and MPI. The
+// program loads it only for this (apps/platen.cc), and it loads solids.so only for bodies that deform.
 #include "apps/engine.h"
 
+#include <dlfcn.h>
+
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <stdexcept>
@@ -15,6 +18,7 @@
 #include "apps/run/pack.h"
 #include "apps/run/ranks.h"
 #include "apps/study/run_study.h"
+#include "fem/load_solids.h"
 
 namespace {
 
@@ -29,6 +33,18 @@ const std::map<std::string, AppBody> bodies{{"platen-pack", run_pack},
                                             {"platen-study", run_study}};
 
 } // namespace
+
+// Functions of bodies that deform are bound at their first call, after this.
+void platen::fem::load_solids() {
+  static const std::filesystem::path own = [] {
+    Dl_info engine{};
+    ::dladdr(reinterpret_cast<const void *>(&platen_engine), &engine);
+    return std::filesystem::path(engine.dli_fname).parent_path();
+  }();
+  static void *const solids = ::dlopen((own / "solids.so").c_str(), RTLD_LAZY | RTLD_GLOBAL);
+  if (solids == nullptr)
+    throw std::runtime_error(std::string(::dlerror()) + ". It belongs to platen: install both anew");
+}
 
 int platen_engine(int argc, char **argv, const Program &program, const CommandLine *line,
                   const Scene *scene) {

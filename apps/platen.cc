@@ -1,7 +1,7 @@
 // All programs that read scenes: platen-compress and the others are links to this one, and `platen compress`
 // is the same. By itself it reads the command line and the scene, answers --help, --version and
 // --print-parameters and refuses what is wrong, in some milliseconds; only for the work it loads the engine,
-// whose hundreds of libraries take a fifth of a second. `platen` alone lists programs, version and scenes.
+// whose libraries take a tenth of a second. `platen` alone lists programs, version and scenes.
 #include <dlfcn.h>
 #include <unistd.h>
 
@@ -43,7 +43,7 @@ Function in_engine(const char *name) {
   std::error_code none;
   const fs::path built = own_folder() / "engine.so",
                  file = fs::exists(built, none) ? built : own_folder() / PLATEN_ENGINE;
-  // Lazy: to bind all functions of two hundred libraries at once takes a third of the start.
+  // Lazy: functions of solids.so are there only once it is loaded, and to bind all takes time.
   void *library = ::dlopen(file.c_str(), RTLD_LAZY | RTLD_GLOBAL); // global: plug-ins of MPI need its symbols
   void *entry = library == nullptr ? nullptr : ::dlsym(library, name);
   if (entry == nullptr)

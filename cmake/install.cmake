@@ -11,7 +11,7 @@ if(PLATEN_RANKS)
   list(APPEND platen_installed dist)
 endif()
 if(PLATEN_APPS)
-  list(APPEND platen_installed fem coupling)
+  list(APPEND platen_installed fem solids coupling)
 endif()
 install(TARGETS platen_options EXPORT PlatenTargets)
 install(DIRECTORY base DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/platen COMPONENT development
@@ -22,8 +22,10 @@ foreach(name IN LISTS platen_installed)
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   install(TARGETS platen_${name} EXPORT PlatenTargets
     ARCHIVE COMPONENT development LIBRARY COMPONENT development NAMELINK_COMPONENT development)
-  install(DIRECTORY ${name} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/platen COMPONENT development
-    FILES_MATCHING PATTERN "*.h")
+  if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/${name}) # solids are in fem
+    install(DIRECTORY ${name} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/platen COMPONENT development
+      FILES_MATCHING PATTERN "*.h")
+  endif()
 endforeach()
 set(platen_cmake ${CMAKE_INSTALL_LIBDIR}/cmake/Platen)
 install(EXPORT PlatenTargets NAMESPACE Platen:: DESTINATION ${platen_cmake} COMPONENT development)

@@ -2,7 +2,6 @@
 // list of any number of boundaries and uses them only through this interface.
 #pragma once
 
-#include <iosfwd>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -16,6 +15,7 @@
 #include "dem/energy.h"
 #include "dem/particles.h"
 #include "dem/stable_step.h"
+#include "fem/picture.h"
 
 namespace platen::coupling {
 
@@ -62,7 +62,7 @@ struct StepLimit {
 class Pictured {
 public:
   virtual std::string series() const = 0; // the time series of files that it belongs to, as "platens"
-  virtual void write_vtu(std::ostream &) const = 0;
+  virtual fem::Picture picture() const = 0;
   virtual std::vector<ActiveContact> contacts() const = 0; // of the last step
 
 protected:

@@ -12,6 +12,7 @@
 #include "base/shortest_text.h"
 #include "coupling/platen_layers.h"
 #include "fem/grids.h"
+#include "fem/load_solids.h"
 #include "fem/rigid_body.h"
 
 namespace platen::coupling {
@@ -249,6 +250,7 @@ std::unique_ptr<fem::ElasticSolid> elastic_solid(const dem::Specimen &s, const P
   options.degree = p.elastic->degree;
   options.motion = p.elastic->motion;
   if (options.motion == fem::ElasticMotion::explicit_steps) options.fastest_damping = p.elastic->damping;
+  fem::load_solids();
   return std::make_unique<fem::ElasticSolid>(platen_grid(s, settings, side), materials_of(p, side), clamp,
                                              options);
 }

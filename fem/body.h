@@ -3,9 +3,9 @@
 // particles is kick(dt / 2), drift(dt), new loads, kick(dt / 2).
 #pragma once
 
-#include <iosfwd>
 #include <vector>
 
+#include "fem/picture.h"
 #include "fem/surface.h"
 
 namespace platen::fem {
@@ -68,10 +68,10 @@ public:
   // All values that change in a run.
   virtual void describe(Archive &archive) = 0;
 
-  // Writes the grid in its current position as VTU (binary, zlib) with point data displacement (m),
-  // contact_pressure and contact_shear (Pa, as contact_tractions) and slip (m; one value per surface vertex,
-  // or an empty vector for zero); a deformable body adds stress and von_mises (Pa).
-  virtual void write_vtu(std::ostream &stream, const std::vector<double> &slip) const = 0;
+  // Its elements in their current position, with displacement (m), contact_pressure and contact_shear (Pa, as
+  // contact_tractions) and slip (m; one value per surface vertex, or an empty vector for zero); a deformable
+  // body adds stress and von_mises (Pa).
+  virtual Picture picture(const std::vector<double> &slip) const = 0;
 
 protected:
   Body() = default;

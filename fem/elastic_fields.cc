@@ -4,7 +4,6 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
-#include <deal.II/grid/tria.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +11,7 @@
 #include <utility>
 
 #include "fem/elastic_model.h"
-#include "fem/grids.h"
+#include "fem/triangulation.h"
 
 namespace platen::fem {
 namespace {

@@ -7,7 +7,6 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
-#include <deal.II/grid/tria.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
 #include <algorithm>
@@ -16,7 +15,7 @@
 #include <utility>
 
 #include "base/require.h"
-#include "fem/grids.h"
+#include "fem/triangulation.h"
 
 namespace platen::fem {
 namespace {
@@ -28,8 +27,10 @@ std::string name_of(const Cell &cell) {
          std::to_string(p[1]) + ", " + std::to_string(p[2]) + ") m";
 }
 
-void number_nodes(ElasticModel &model, const dealii::FE_Q<3> &element) {
-  const auto numbers = std::make_shared<dealii::DoFHandler<3>>(*model.grid);
+void number_nodes(ElasticModel &model, const Grid &grid, const dealii::FE_Q<3> &element) {
+  const auto known = triangulation(*grid);
+  const std::shared_ptr<dealii::DoFHandler<3>> numbers(new dealii::DoFHandler<3>(*known),
+                                                       [known](auto *last) { delete last; });
   numbers->distribute_dofs(element);
   dealii::DoFRenumbering::Cuthill_McKee(*numbers); // neighbours are near in memory
   model.nodes.resize(numbers->n_dofs());
@@ -121,7 +122,7 @@ void lump(const dealii::FEValues<3> &values, int degree, std::vector<double> &sh
 
 } // namespace
 
-ElasticModel make_elastic_model(Grid grid, int degree, std::vector<Material> materials) {
+ElasticModel make_elastic_model(const Grid &grid, int degree, std::vector<Material> materials) {
   require(grid != nullptr, "elastic solid: no grid");
   require(degree == 1 || degree == 2,
           "elastic solid: degree " + std::to_string(degree) + " is neither 1 nor 2");
@@ -131,11 +132,10 @@ ElasticModel make_elastic_model(Grid grid, int degree, std::vector<Material> mat
   const std::string inverted = inverted_cell(grid);
   require(inverted.empty(), "elastic solid: " + inverted + " is inverted or warped through itself");
   ElasticModel model;
-  model.grid = std::move(grid);
   model.degree = degree;
   model.materials = std::move(materials);
   const dealii::FE_Q<3> element(static_cast<unsigned int>(degree));
-  number_nodes(model, element);
+  number_nodes(model, grid, element);
   lay_out(model);
 
   const NoCellReuse same_for_any_threads;

@@ -20,10 +20,9 @@ class DoFHandler;
 namespace platen::fem {
 
 struct ElasticModel {
-  Grid grid;
   int degree = 1;
   std::vector<Material> materials; // by material id of the cells
-  // Node numbers: one per node of dealii::FE_Q(degree).
+  // Node numbers: one per node of dealii::FE_Q(degree). They keep deal.II's grid alive.
   std::shared_ptr<const dealii::DoFHandler<3, 3>> numbers;
   std::vector<Vector3> nodes;     // m
   std::vector<int> cell_nodes;    // (degree + 1)^3 per cell, in deal.II's order
@@ -38,7 +37,7 @@ struct ElasticModel {
 
 // Throws std::invalid_argument where the degree is neither 1 nor 2, a cell has a material id that is not in
 // `materials`, a constant is out of range, or a cell is inverted or warped through itself (naming the cell).
-ElasticModel make_elastic_model(Grid grid, int degree, std::vector<Material> materials);
+ElasticModel make_elastic_model(const Grid &grid, int degree, std::vector<Material> materials);
 
 // The boundary, with each boundary node as a vertex, so that loads on vertices are loads on nodes: each face
 // of a cell of degree 2 is split into four at its nodes.

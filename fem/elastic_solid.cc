@@ -26,9 +26,9 @@ void check(const Clamp &clamp, const ElasticOptions &options) {
 
 } // namespace
 
-ElasticSolid::ElasticSolid(Grid grid, std::vector<Material> materials, const Clamp &clamp,
+ElasticSolid::ElasticSolid(const Grid &grid, std::vector<Material> materials, const Clamp &clamp,
                            const ElasticOptions &options)
-    : model_(make_elastic_model(std::move(grid), options.degree, std::move(materials))),
+    : model_(make_elastic_model(grid, options.degree, std::move(materials))),
       clamp_(clamp),
       options_(options) {
   check(clamp, options);

@@ -14,7 +14,6 @@
 #pragma once
 
 #include <array>
-#include <iosfwd>
 #include <vector>
 
 #include "base/vector3.h"
@@ -56,7 +55,7 @@ class ElasticSolid : public Body {
 public:
   // Materials by material id of the cells. Throws std::invalid_argument as make_elastic_model does, and where
   // no face has the clamp's tag, an option is out of range or two options exclude each other.
-  ElasticSolid(Grid grid, std::vector<Material> materials, const Clamp &clamp,
+  ElasticSolid(const Grid &grid, std::vector<Material> materials, const Clamp &clamp,
                const ElasticOptions &options = {});
 
   const ElasticModel &model() const { return model_; }
@@ -115,10 +114,8 @@ public:
   // Call it between steps.
   void describe(Archive &archive) override;
 
-  // Writes the grid in its current position as VTU (binary, zlib; cells of degree 2 as such) with
-  // displacement (m), stress and von_mises (Pa, in the frame's axes, per material), contact_pressure,
-  // contact_shear (Pa) and slip (m; one value per vertex, or empty for zero).
-  void write_vtu(std::ostream &stream, const std::vector<double> &slip = {}) const override;
+  // Stresses are in the frame's axes, per material.
+  Picture picture(const std::vector<double> &slip = {}) const override;
 
 private:
   bool is_static() const { return options_.motion == ElasticMotion::quasi_static; }

@@ -2,8 +2,6 @@
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/grid/grid_in.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/tria.h>
 
 #include <algorithm>
 #include <exception>
@@ -12,8 +10,10 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "base/shortest_text.h"
+#include "fem/triangulation.h"
 
 namespace platen::fem {
 namespace {
@@ -42,30 +42,30 @@ void read(std::istream &stream, const GmshOptions &options, dealii::Triangulatio
   }
 }
 
-void count_materials(dealii::Triangulation<3> &grid) {
-  std::map<dealii::types::material_id, dealii::types::material_id> count;
-  for (const auto &cell : grid.active_cell_iterators())
-    count[cell->material_id()] = 0;
-  dealii::types::material_id next = 0;
+// Material ids from 0, in the order of those in the file.
+void count_materials(Hexahedra &grid) {
+  std::map<int, int> count;
+  for (const int id : grid.material)
+    count[id] = 0;
+  int next = 0;
   for (auto &[id, place] : count)
     place = next++;
-  for (const auto &cell : grid.active_cell_iterators())
-    cell->set_material_id(count[cell->material_id()]);
+  for (int &id : grid.material)
+    id = count[id];
 }
 
-void tag_ends_if_unnamed(dealii::Triangulation<3> &grid, double low, double high) {
-  for (const dealii::types::boundary_id tag : grid.get_boundary_ids())
-    if (tag != 0) return;
+void tag_ends_if_unnamed(Hexahedra &grid, double low, double high) {
+  for (const BoundaryFace &face : grid.faces)
+    if (face.tag != 0) return;
   const double near = 1e-6 * (high - low);
-  for (const auto &face : grid.active_face_iterators()) {
-    if (!face->at_boundary()) continue;
+  for (BoundaryFace &face : grid.faces) {
     bool at_low = true, at_high = true;
-    for (const unsigned int v : face->vertex_indices()) {
-      at_low = at_low && face->vertex(v)[2] < low + near;
-      at_high = at_high && face->vertex(v)[2] > high - near;
+    for (const int v : face.nodes) {
+      at_low = at_low && grid.vertices[static_cast<std::size_t>(v)].z < low + near;
+      at_high = at_high && grid.vertices[static_cast<std::size_t>(v)].z > high - near;
     }
-    if (at_low) face->set_boundary_id(low_end_tag);
-    if (at_high) face->set_boundary_id(high_end_tag);
+    if (at_low) face.tag = low_end_tag;
+    if (at_high) face.tag = high_end_tag;
   }
 }
 
@@ -73,20 +73,26 @@ void tag_ends_if_unnamed(dealii::Triangulation<3> &grid, double low, double high
 
 Grid read_gmsh(std::istream &stream, const GmshOptions &options) {
   if (!(options.unit > 0)) refuse(options, "the unit of length must be positive");
-  auto grid = std::make_shared<dealii::Triangulation<3>>();
-  read(stream, options, *grid);
-  dealii::GridTools::scale(options.unit, *grid);
-  const auto [low, high] = dealii::GridTools::compute_bounding_box(*grid).get_boundary_points();
-  const double across = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+  dealii::Triangulation<3> known;
+  read(stream, options, known);
+  Hexahedra grid = hexahedra(known);
+  Vector3 low = options.unit * grid.vertices[0], high = low;
+  for (Vector3 &v : grid.vertices) {
+    v = options.unit * v;
+    for (std::size_t k = 0; k < 3; ++k)
+      low[k] = std::min(low[k], v[k]), high[k] = std::max(high[k], v[k]);
+  }
+  const double across = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
   if (!(across > smallest && across < largest))
     refuse(options, "the body is " + text_of(across) + " m across; allowed are " + text_of(smallest) +
                         " to " + text_of(largest) + " m. Is " + text_of(options.unit) +
                         " m the file's unit of length?");
-  const std::string inverted = inverted_cell(grid);
+  count_materials(grid);
+  tag_ends_if_unnamed(grid, low.z, high.z);
+  const Grid made = std::make_shared<const Hexahedra>(std::move(grid));
+  const std::string inverted = inverted_cell(made);
   if (!inverted.empty()) refuse(options, inverted + " is inverted or warped through itself");
-  count_materials(*grid);
-  tag_ends_if_unnamed(*grid, low[2], high[2]);
-  return grid;
+  return made;
 }
 
 } // namespace platen::fem

@@ -1,12 +1,10 @@
+// Grids of plates and tubes.
 #include "fem/grids.h"
-
-#include <deal.II/grid/grid_generator.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/tria.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <string>
+#include <utility>
 
 #include "base/pi.h"
 #include "base/portable.h"
@@ -14,6 +12,25 @@
 
 namespace platen::fem {
 namespace {
+
+// Boundary ids of the sides x-, x+ ... z+ of the cells of one grid.
+using SideTags = std::array<int, 6>;
+constexpr SideTags box_tags{0, 1, 2, 3, low_end_tag, high_end_tag},
+    disc_tags{mantle_tag, mantle_tag, mantle_tag, mantle_tag, low_end_tag, high_end_tag},
+    tube_tags{inner_tag, mantle_tag, mantle_tag, mantle_tag, low_end_tag, high_end_tag};
+
+// Corners of each side of a cell, counter-clockwise seen from outside.
+constexpr std::array<std::array<int, 4>, 6> sides{
+    {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
+
+Grid finished(Hexahedra grid, const SideTags &tags) {
+  grid.material.assign(grid.cells.size(), 0);
+  grid.faces = boundary_faces(grid.cells);
+  for (BoundaryFace &face : grid.faces)
+    face.tag =
+        tags[static_cast<std::size_t>(std::find(sides.begin(), sides.end(), face.corners) - sides.begin())];
+  return std::make_shared<const Hexahedra>(std::move(grid));
+}
 
 // Number of rings around the core of a disc with `across` cells across.
 int rings_of(int across) {
@@ -33,28 +50,43 @@ public:
         points_.push_back(ring_point(ring, k));
     for (int j = 0; j < n_; ++j)
       for (int i = 0; i < n_; ++i)
-        add_cell(core(i, j), core(i + 1, j), core(i + 1, j + 1), core(i, j + 1));
+        cells_.push_back({core(i, j), core(i + 1, j), core(i, j + 1), core(i + 1, j + 1)});
     for (int ring = 0; ring < rings_; ++ring)
       for (int k = 0; k < 4 * n_; ++k)
-        add_cell(around(ring, k), around(ring + 1, k), around(ring + 1, k + 1), around(ring, k + 1));
+        cells_.push_back(
+            {around(ring, k), around(ring + 1, k), around(ring, k + 1), around(ring + 1, k + 1)});
   }
-  void create(dealii::Triangulation<2> &disc) const {
-    disc.create_triangulation(points_, cells_, dealii::SubCellData());
+
+  // Layers of it, from z_low; heights come from whole numbers of layers, so that the ends are flat to the
+  // last bit.
+  Hexahedra raised(double z_low, double thickness, int layers) const {
+    Hexahedra grid;
+    for (int k = 0; k <= layers; ++k)
+      for (const Vector3 &p : points_)
+        grid.vertices.push_back({p.x, p.y, z_low + thickness * (static_cast<double>(k) / layers)});
+    const int level = static_cast<int>(points_.size());
+    for (const std::array<int, 4> &flat : cells_)
+      for (int k = 0; k < layers; ++k) {
+        std::array<int, 8> &cell = grid.cells.emplace_back();
+        for (std::size_t v = 0; v < 8; ++v)
+          cell[v] = flat[v % 4] + (k + static_cast<int>(v / 4)) * level;
+      }
+    return grid;
   }
 
 private:
   // The core's sides bulge a little towards the circle, so that the corners of the first ring stay wide.
-  dealii::Point<2> core_point(int i, int j) const {
+  Vector3 core_point(int i, int j) const {
     const double share = static_cast<double>(n_) / (n_ + 2.0 * rings_), bulge = 0.15;
     const double a = 2.0 * i / n_ - 1.0, b = 2.0 * j / n_ - 1.0;
     const double s = radius_ * share;
-    return {s * a * (1.0 - bulge * b * b), s * b * (1.0 - bulge * a * a)};
+    return {s * a * (1.0 - bulge * b * b), s * b * (1.0 - bulge * a * a), 0};
   }
-  dealii::Point<2> ring_point(int ring, int k) const {
+  Vector3 ring_point(int ring, int k) const {
     const double t = static_cast<double>(ring) / rings_, angle = 2.0 * pi * k / (4.0 * n_) - 0.75 * pi;
-    const dealii::Point<2> inner = points_[static_cast<std::size_t>(around(0, k))];
-    const dealii::Point<2> outer(radius_ * portable::cos(angle), radius_ * portable::sin(angle));
-    return dealii::Point<2>((1.0 - t) * inner + t * outer);
+    const Vector3 inner = points_[static_cast<std::size_t>(around(0, k))],
+                  outer{radius_ * portable::cos(angle), radius_ * portable::sin(angle), 0};
+    return (1.0 - t) * inner + t * outer;
   }
   int core(int i, int j) const { return j * (n_ + 1) + i; }
   // Vertex k of a ring, counter-clockwise from the corner (-, -); ring 0 is the rim of the core.
@@ -67,29 +99,90 @@ private:
     if (side == 2) return core(n_ - along, n_);
     return core(0, n_ - along);
   }
-  // Corners counter-clockwise; deal.II expects the last two swapped.
-  void add_cell(int a, int b, int c, int d) {
-    dealii::CellData<2> cell;
-    cell.vertices = {static_cast<unsigned int>(a), static_cast<unsigned int>(b), static_cast<unsigned int>(d),
-                     static_cast<unsigned int>(c)};
-    cells_.push_back(cell);
-  }
 
   double radius_;
   int rings_, n_;
-  std::vector<dealii::Point<2>> points_;
-  std::vector<dealii::CellData<2>> cells_;
+  std::vector<Vector3> points_;
+  std::vector<std::array<int, 4>> cells_; // x of the cell runs fastest
 };
 
-void tag_ends(dealii::Triangulation<3> &grid, double z_low, double thickness) {
-  for (const auto &face : grid.active_face_iterators()) {
-    if (!face->at_boundary()) continue;
-    const double height = (face->center()[2] - z_low) / thickness;
-    face->set_boundary_id(height < 1e-6 ? low_end_tag : (height > 1.0 - 1e-6 ? high_end_tag : 0));
+// Cells of a block of vertices, numbered as number(i, j, k) along x, y, z of the cells.
+template <class Number>
+void add_cells(Hexahedra &grid, const std::array<int, 3> &count, const Number &number) {
+  for (int k = 0; k < count[2]; ++k)
+    for (int j = 0; j < count[1]; ++j)
+      for (int i = 0; i < count[0]; ++i) {
+        std::array<int, 8> &cell = grid.cells.emplace_back();
+        for (int v = 0; v < 8; ++v)
+          cell[static_cast<std::size_t>(v)] = number(i + v % 2, j + v / 2 % 2, k + v / 4);
+      }
+}
+
+bool touch(const BoxPlate &a, const BoxPlate &b) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (a.high[k] < b.low[k] || b.high[k] < a.low[k]) return false;
+  return true;
+}
+
+// Makes boxes one by one, with their cells and vertices one after the other.
+template <class Make>
+Grid merged(const std::vector<BoxPlate> &boxes, const Make &make) {
+  require(!boxes.empty(), "platen grid: there are no boxes");
+  for (std::size_t k = 0; k < boxes.size(); ++k)
+    for (std::size_t other = 0; other < k; ++other)
+      require(!touch(boxes[k], boxes[other]), "platen grid: two boxes of one grid touch");
+  Hexahedra all;
+  for (const BoxPlate &box : boxes) {
+    const Grid one = make(box);
+    const int vertices = static_cast<int>(all.vertices.size()), cells = static_cast<int>(all.cells.size());
+    all.vertices.insert(all.vertices.end(), one->vertices.begin(), one->vertices.end());
+    all.material.insert(all.material.end(), one->material.begin(), one->material.end());
+    for (std::array<int, 8> cell : one->cells) {
+      for (int &v : cell)
+        v += vertices;
+      all.cells.push_back(cell);
+    }
+    for (BoundaryFace face : one->faces) {
+      for (int &v : face.nodes)
+        v += vertices;
+      face.cell += cells;
+      all.faces.push_back(face);
+    }
   }
+  return std::make_shared<const Hexahedra>(std::move(all));
 }
 
 } // namespace
+
+std::vector<BoundaryFace> boundary_faces(const std::vector<std::array<int, 8>> &cells) {
+  std::vector<std::pair<std::array<int, 4>, std::size_t>> keys; // sorted nodes of a face, its number
+  keys.reserve(6 * cells.size());
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    for (std::size_t f = 0; f < 6; ++f) {
+      std::array<int, 4> nodes;
+      for (std::size_t k = 0; k < 4; ++k)
+        nodes[k] = cells[c][static_cast<std::size_t>(sides[f][k])];
+      std::sort(nodes.begin(), nodes.end());
+      keys.emplace_back(nodes, 6 * c + f);
+    }
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::size_t> outer;
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    const bool as_before = k > 0 && keys[k - 1].first == keys[k].first,
+               as_next = k + 1 < keys.size() && keys[k + 1].first == keys[k].first;
+    if (!as_before && !as_next) outer.push_back(keys[k].second);
+  }
+  std::sort(outer.begin(), outer.end());
+  std::vector<BoundaryFace> faces;
+  for (const std::size_t number : outer) {
+    const std::size_t c = number / 6;
+    BoundaryFace face{{}, 0, static_cast<int>(c), sides[number % 6]};
+    for (std::size_t k = 0; k < 4; ++k)
+      face.nodes[k] = cells[c][static_cast<std::size_t>(face.corners[k])];
+    faces.push_back(face);
+  }
+  return faces;
+}
 
 double cells_in(const CylinderPlate &plate) {
   const double rings = rings_of(plate.elements_across), core = plate.elements_across - 2 * rings;
@@ -101,20 +194,8 @@ Grid make_grid(const CylinderPlate &plate) {
   require(plate.thickness > 0, "platen grid: thickness must be positive");
   require(plate.elements_across >= 3, "platen grid: a round plate needs at least 3 elements across");
   require(plate.elements_thick >= 1, "platen grid: at least one element through the thickness");
-  dealii::Triangulation<2> disc;
-  DiscMesh(plate.radius, plate.elements_across).create(disc);
-  auto grid = std::make_shared<dealii::Triangulation<3>>();
-  dealii::GridGenerator::extrude_triangulation(disc, static_cast<unsigned int>(plate.elements_thick) + 1,
-                                               plate.thickness, *grid);
-  // Heights from whole numbers of layers: every vertex of an end gets the same number, so the end is flat.
-  const double layers = plate.elements_thick;
-  const auto raise = [&](dealii::Point<3> p) {
-    p[2] = plate.z_low + plate.thickness * (std::round(p[2] / plate.thickness * layers) / layers);
-    return p;
-  };
-  dealii::GridTools::transform(raise, *grid);
-  tag_ends(*grid, plate.z_low, plate.thickness);
-  return grid;
+  const DiscMesh disc(plate.radius, plate.elements_across);
+  return finished(disc.raised(plate.z_low, plate.thickness, plate.elements_thick), disc_tags);
 }
 
 Grid make_grid(const BoxPlate &plate) {
@@ -123,74 +204,18 @@ Grid make_grid(const BoxPlate &plate) {
             "platen grid: the high corner of a box must lie above its low corner");
     require(plate.elements[k] >= 1, "platen grid: at least one element along each side of a box");
   }
-  const auto count = [&](std::size_t k) { return static_cast<unsigned int>(plate.elements[k]); };
-  auto grid = std::make_shared<dealii::Triangulation<3>>();
-  dealii::GridGenerator::subdivided_hyper_rectangle(
-      *grid, {count(0), count(1), count(2)}, dealii::Point<3>(plate.low[0], plate.low[1], plate.low[2]),
-      dealii::Point<3>(plate.high[0], plate.high[1], plate.high[2]), true);
-  for (const auto &cell : grid->active_cell_iterators())
-    cell->set_material_id(0); // the generator sets ids by octant
-  return grid;
+  const std::array<int, 3> &n = plate.elements;
+  const auto at = [&](std::size_t k, int i) {
+    return plate.low[k] + i * ((plate.high[k] - plate.low[k]) / n[k]);
+  };
+  Hexahedra grid;
+  for (int k = 0; k <= n[2]; ++k)
+    for (int j = 0; j <= n[1]; ++j)
+      for (int i = 0; i <= n[0]; ++i)
+        grid.vertices.push_back({at(0, i), at(1, j), at(2, k)});
+  add_cells(grid, n, [&](int i, int j, int k) { return (k * (n[1] + 1) + j) * (n[0] + 1) + i; });
+  return finished(std::move(grid), box_tags);
 }
-
-namespace {
-
-bool touch(const BoxPlate &a, const BoxPlate &b) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (a.high[k] < b.low[k] || b.high[k] < a.low[k]) return false;
-  return true;
-}
-
-// Largest distance of a point outside a box along an axis, m; 0 inside.
-double outside(const BoxPlate &box, const dealii::Point<3> &p) {
-  double most = 0;
-  for (unsigned int k = 0; k < 3; ++k)
-    most = std::max({most, box.low[k] - p[k], p[k] - box.high[k]});
-  return most;
-}
-
-// The side of a box that a face of its grid lies in, numbered as BoxPlate's are.
-unsigned int side_of(const BoxPlate &box, const dealii::Point<3> &middle) {
-  unsigned int nearest = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (unsigned int side = 0; side < 6; ++side) {
-    const std::size_t k = side / 2;
-    const double distance = std::abs(middle[side / 2] - (side % 2 == 0 ? box.low[k] : box.high[k]));
-    if (distance < least) least = distance, nearest = side;
-  }
-  return nearest;
-}
-
-} // namespace
-
-namespace {
-
-// Makes boxes one by one and merges them; merging keeps materials but not the tags of the sides.
-Grid merged(const std::vector<BoxPlate> &boxes, const std::function<Grid(const BoxPlate &)> &make) {
-  require(!boxes.empty(), "platen grid: there are no boxes");
-  for (std::size_t k = 0; k < boxes.size(); ++k)
-    for (std::size_t other = 0; other < k; ++other)
-      require(!touch(boxes[k], boxes[other]), "platen grid: two boxes of one grid touch");
-  std::vector<Grid> parts;
-  std::vector<const dealii::Triangulation<3> *> all;
-  for (const BoxPlate &box : boxes) {
-    parts.push_back(make(box));
-    all.push_back(parts.back().get());
-  }
-  auto grid = std::make_shared<dealii::Triangulation<3>>();
-  dealii::GridGenerator::merge_triangulations(all, *grid, 0.0);
-  for (const auto &face : grid->active_face_iterators()) {
-    if (!face->at_boundary()) continue;
-    const dealii::Point<3> middle = face->center();
-    const auto nearer = [&](const BoxPlate &a, const BoxPlate &b) {
-      return outside(a, middle) < outside(b, middle);
-    };
-    face->set_boundary_id(side_of(*std::min_element(boxes.begin(), boxes.end(), nearer), middle));
-  }
-  return grid;
-}
-
-} // namespace
 
 Grid make_grid(const std::vector<BoxPlate> &boxes) {
   return merged(boxes, [](const BoxPlate &box) { return make_grid(box); });
@@ -208,45 +233,18 @@ Grid make_grid(const Tube &tube) {
   require(tube.elements_along >= 1, "tube grid: at least one element along the axis");
   require(tube.elements_through >= 1, "tube grid: at least one element through the wall");
   const int around = tube.elements_around, along = tube.elements_along, through = tube.elements_through;
-  const auto number = [&](int k, int i, int j) { // height, angle, radius
-    return static_cast<unsigned int>((k * around + i % around) * (through + 1) + j);
-  };
-  std::vector<dealii::Point<3>> points;
+  Hexahedra grid;
   for (int k = 0; k <= along; ++k)
     for (int i = 0; i < around; ++i)
       for (int j = 0; j <= through; ++j) {
         const double r = tube.inner_radius + tube.thickness * j / through, angle = 2 * pi * i / around;
-        points.emplace_back(r * portable::cos(angle), r * portable::sin(angle),
-                            tube.z_low + tube.height * k / along);
+        grid.vertices.push_back(
+            {r * portable::cos(angle), r * portable::sin(angle), tube.z_low + tube.height * k / along});
       }
-  std::vector<dealii::CellData<3>> cells;
-  dealii::SubCellData sides;
-  const auto add_side = [&](unsigned int a, unsigned int b, unsigned int c, unsigned int d, int tag) {
-    dealii::CellData<2> face;
-    face.vertices = {a, b, c, d};
-    face.boundary_id = static_cast<dealii::types::boundary_id>(tag);
-    sides.boundary_quads.push_back(face);
-  };
-  for (int k = 0; k < along; ++k)
-    for (int i = 0; i < around; ++i) {
-      for (int j = 0; j < through; ++j) { // x of the cell runs outwards, y around, z along
-        dealii::CellData<3> cell;
-        cell.vertices = {number(k, i, j),         number(k, i, j + 1),        number(k, i + 1, j),
-                         number(k, i + 1, j + 1), number(k + 1, i, j),        number(k + 1, i, j + 1),
-                         number(k + 1, i + 1, j), number(k + 1, i + 1, j + 1)};
-        cells.push_back(cell);
-        for (const int end : {0, along})
-          if (k == (end > 0 ? end - 1 : 0))
-            add_side(number(end, i, j), number(end, i, j + 1), number(end, i + 1, j),
-                     number(end, i + 1, j + 1), end == 0 ? low_end_tag : high_end_tag);
-      }
-      for (const int j : {0, through})
-        add_side(number(k, i, j), number(k, i + 1, j), number(k + 1, i, j), number(k + 1, i + 1, j),
-                 j == 0 ? inner_tag : mantle_tag);
-    }
-  auto grid = std::make_shared<dealii::Triangulation<3>>();
-  grid->create_triangulation(points, cells, sides);
-  return grid;
+  // x of a cell runs outwards, y around, z along.
+  add_cells(grid, {through, around, along},
+            [&](int j, int i, int k) { return (k * around + i % around) * (through + 1) + j; });
+  return finished(std::move(grid), tube_tags);
 }
 
 } // namespace platen::fem

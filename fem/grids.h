@@ -1,4 +1,5 @@
-// Finite-element grids of platens, and the data that a body reads from them. Only .cc files include deal.II.
+// Finite-element grids of platens and sleeves as plain arrays, and the data that a body reads from them. A
+// body that deforms has deal.II number them (fem/triangulation.h); a rigid one does not need it.
 #pragma once
 
 #include <array>
@@ -9,14 +10,23 @@
 
 #include "fem/surface.h"
 
-namespace dealii {
-template <int dim, int spacedim>
-class Triangulation;
-}
-
 namespace platen::fem {
 
-using Grid = std::shared_ptr<dealii::Triangulation<3, 3>>;
+// A face of the boundary.
+struct BoundaryFace {
+  std::array<int, 4> nodes;   // vertices of the grid, counter-clockwise seen from outside
+  int tag;                    // boundary id
+  int cell;                   // to which it belongs
+  std::array<int, 4> corners; // of that cell
+};
+
+struct Hexahedra {
+  std::vector<Vector3> vertices;         // m
+  std::vector<std::array<int, 8>> cells; // vertices: x of the cell runs fastest, then y, then z
+  std::vector<int> material;             // id of each cell
+  std::vector<BoundaryFace> faces;       // of the boundary: in the order of cells, of each x-, x+ ... z+
+};
+using Grid = std::shared_ptr<const Hexahedra>;
 
 // Boundary ids of both kinds of plate, as in SurfaceMesh::face_tags. A box numbers its sides x-, x+, y-, y+ =
 // 0 ... 3; the mantle of a cylinder is 0.
@@ -83,14 +93,9 @@ Grid moved_grid(const Grid &grid, const std::function<Vector3(const Vector3 &)> 
 // position of its middle; empty where there is none.
 std::string inverted_cell(const Grid &grid);
 
-// A face of the boundary.
-struct BoundaryFace {
-  std::array<int, 4> nodes;   // vertices of the grid, counter-clockwise seen from outside
-  int tag;                    // boundary id
-  int cell;                   // to which it belongs
-  std::array<int, 4> corners; // of that cell
-};
-std::vector<BoundaryFace> boundary_faces(const Grid &grid);
+// The faces of a grid that belong to one cell alone, with tag 0. Their corners are counter-clockwise seen
+// from outside where the cell is not inverted.
+std::vector<BoundaryFace> boundary_faces(const std::vector<std::array<int, 8>> &cells);
 
 // The boundary of a grid as a surface of quadrilaterals: the faces of some tags, or all of them where `tags`
 // is empty. Nodes are the vertices of the grid.
@@ -116,18 +121,5 @@ Grid laid_platen(const Grid &grid, bool faces_up, double plane);
 
 // Number of materials of a grid; material ids count from 0.
 int materials_of(const Grid &grid);
-
-// Threads of deal.II. Loops over cells and nodes use the pool of the process (base/parallel.h) instead.
-//
-// With one thread, deal.II copies the geometry of a cell from an equal cell before it, which changes the last
-// bits. While any object of this class exists, deal.II may have two threads, so that matrices do not depend
-// on the program's thread limit; afterwards one, since a process has no second pool.
-class NoCellReuse {
-public:
-  NoCellReuse();
-  ~NoCellReuse();
-  NoCellReuse(const NoCellReuse &) = delete;
-  NoCellReuse &operator=(const NoCellReuse &) = delete;
-};
 
 } // namespace platen::fem

@@ -10,13 +10,14 @@
 
 namespace platen::fem {
 
-HyperelasticSolid::HyperelasticSolid(Grid grid, const Rubber &material, const std::vector<int> &contact_tags)
-    : grid_(std::move(grid)), material_(material), mesh_(read_mesh(grid_)) {
+HyperelasticSolid::HyperelasticSolid(const Grid &grid, const Rubber &material,
+                                     const std::vector<int> &contact_tags)
+    : material_(material), mesh_(read_mesh(grid)) {
   require(material.density > 0 && std::isfinite(material.density), "solid: density must be positive");
   material_.law = NeoHookean::from_moduli(material.law.shear_modulus, material.law.bulk_modulus);
   for (const int tag : contact_tags)
     require(!mesh_.nodes_of(tag).empty(), "solid: no face has the contact tag " + std::to_string(tag));
-  NodeSurface part = extract_surface(grid_, contact_tags);
+  NodeSurface part = extract_surface(grid, contact_tags);
   set_surface(std::move(part.surface));
   surface_node_ = std::move(part.node);
   const std::size_t nodes = mesh_.nodes.size();

@@ -11,12 +11,12 @@
 
 #include <array>
 #include <cstddef>
-#include <iosfwd>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "fem/node_matrix.h"
+#include "fem/picture.h"
 #include "fem/solid_mesh.h"
 #include "fem/surface.h"
 
@@ -41,7 +41,7 @@ public:
   // `contact_tags`: the part of the surface that touches the particles (inner_tag for a sleeve: its outer
   // face then has no contacts); empty for all of it. Throws std::invalid_argument where a constant is out of
   // range, a cell is folded or a tag has no faces.
-  HyperelasticSolid(Grid grid, const Rubber &material, const std::vector<int> &contact_tags = {});
+  HyperelasticSolid(const Grid &grid, const Rubber &material, const std::vector<int> &contact_tags = {});
 
   const Rubber &material() const { return material_; }
   const SolidMesh &mesh() const { return mesh_; }
@@ -114,10 +114,9 @@ public:
   // Cauchy stress (Pa), tension positive. Node values are means over the adjacent cells by current volume.
   std::vector<CellStress> cell_stresses() const;
   std::vector<Tensor> node_stresses() const;
-  // VTU (binary, zlib) of the grid in its current position. Points: displacement (m), stress (tensor),
-  // von_mises, pressure (minus the mean stress), contact_pressure, contact_shear (Pa), slip (m; one per
-  // surface vertex or empty for zero), J (volume ratio of the cell).
-  void write_vtu(std::ostream &stream, const std::vector<double> &slip = {}) const;
+  // The elements in their current position, with what Body::picture has, pressure (Pa, minus the mean stress)
+  // and J (volume ratio of the element).
+  Picture picture(const std::vector<double> &slip = {}) const;
 
   // All values that change in a run: motion, prescribed velocities, pressures, loads, works. The solid must
   // have the same prescribed motions. Throws InvertedElement where an element would be inverted.
@@ -164,7 +163,6 @@ private:
   void place_surface();
   void follow_state();
 
-  Grid grid_;
   Rubber material_;
   SolidMesh mesh_;
   std::vector<int> surface_node_;       // of each vertex

@@ -169,6 +169,13 @@ double RigidBody::stable_step(const VertexSprings &springs) const {
   return omega > 0 ? 2 / omega * (std::sqrt(1 + xi * xi) - xi) : std::numeric_limits<double>::infinity();
 }
 
+Picture RigidBody::picture(const std::vector<double> &slip) const {
+  std::vector<Vector3> displacement;
+  for (const Vector3 &v : grid_->vertices)
+    displacement.push_back(is_identity(rotation_) ? displacement_ : current_position(v) - v);
+  return picture_of("body", *this, grid_vertex_, slip, grid_->vertices, displacement, grid_->cells);
+}
+
 void RigidBody::describe(Archive &archive) {
   archive.version(1);
   archive("displacement", displacement_, "m");

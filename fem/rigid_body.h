@@ -1,10 +1,9 @@
-// A rigid body: it has six degrees of freedom, and its grid gives the surface and the VTU file. The machine
+// A rigid body: it has six degrees of freedom, and its grid gives the surface and the picture. The machine
 // prescribes all six, or only the translation of a spherical seat on which the body rotates freely. With a
 // seat, the energy balance contains the rotational energy about the seat; the machine's work contains its
 // work against the loads where the seat moves, and the change of that energy by jumps of the seat's velocity.
 #pragma once
 
-#include <iosfwd>
 #include <vector>
 
 #include "fem/body.h"
@@ -53,7 +52,7 @@ public:
 
   void describe(Archive &archive) override;
 
-  void write_vtu(std::ostream &stream, const std::vector<double> &slip = {}) const override;
+  Picture picture(const std::vector<double> &slip = {}) const override;
 
 private:
   Vector3 current_position(const Vector3 &reference) const;

@@ -1,11 +1,10 @@
 #include "fem/solid_mesh.h"
 #include "base/require.h"
-#include "fem/grids.h"
+#include "fem/triangulation.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/grid/tria.h>
 
 #include <algorithm>
 #include <string>
@@ -20,10 +19,7 @@ void read_cells(const dealii::Triangulation<3> &grid, SolidMesh &mesh) {
   dealii::FEValues<3> values(element, points,
                              dealii::update_values | dealii::update_gradients | dealii::update_JxW_values);
   for (const auto &cell : grid.active_cell_iterators()) {
-    std::array<int, 8> nodes;
-    for (unsigned int a = 0; a < 8; ++a)
-      nodes[a] = static_cast<int>(cell->vertex_index(a));
-    mesh.cell_nodes.push_back(nodes);
+    const std::array<int, 8> &nodes = mesh.cell_nodes[mesh.cells.size()];
     ReferenceCell reference;
     const std::string name = "cell " + std::to_string(mesh.cells.size());
     reference.corner_volume = corner_volumes(mesh.gather(mesh.cells.size(), mesh.nodes));
@@ -64,15 +60,14 @@ void list_corners(SolidMesh &mesh) {
 
 SolidMesh read_mesh(const Grid &grid) {
   require(grid != nullptr, "solid: no grid");
-  require(!grid->has_hanging_nodes() && grid->n_levels() == 1, "solid: the grid must not be refined locally");
   SolidMesh mesh;
-  for (const dealii::Point<3> &p : grid->get_vertices())
-    mesh.nodes.push_back({p[0], p[1], p[2]});
+  mesh.nodes = grid->vertices;
+  mesh.cell_nodes = grid->cells;
   mesh.node_volume.assign(mesh.nodes.size(), 0.0);
-  read_cells(*grid, mesh);
+  read_cells(*triangulation(*grid), mesh);
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
     require(mesh.node_volume[n] > 0, "solid: node " + std::to_string(n) + " belongs to no cell");
-  mesh.faces = boundary_faces(grid);
+  mesh.faces = grid->faces;
   list_corners(mesh);
   return mesh;
 }

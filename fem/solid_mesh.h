@@ -1,4 +1,4 @@
-// A grid as plain arrays for loops over its cells, read from deal.II once, at the start.
+// A grid with what loops over its cells need, integrated by deal.II once, at the start.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ struct SolidMesh {
   std::vector<int> nodes_of(int tag) const;
 };
 
-// Throws std::invalid_argument where a cell is folded (naming it) or the grid has hanging or loose nodes.
+// Throws std::invalid_argument where a cell is folded (naming it) or a node belongs to no cell.
 SolidMesh read_mesh(const Grid &grid);
 
 } // namespace platen::fem

@@ -13,6 +13,7 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -171,6 +172,24 @@ void write_discs(const std::filesystem::path &path, double time, const std::vect
     }
   }
   write_cells(path, time, points, VTK_POLYGON, polygons, {}, disc_fields);
+}
+
+void write_body(const std::filesystem::path &path, double time, const fem::Picture &picture) {
+  const auto fields = [](const std::vector<fem::PictureField> &of) {
+    std::vector<Field> made;
+    for (const fem::PictureField &field : of)
+      made.push_back({field.name, field.values, field.components});
+    return made;
+  };
+  vtkNew<vtkCellArray> cells;
+  const auto nodes = static_cast<std::size_t>(picture.nodes_per_cell);
+  std::vector<vtkIdType> cell(nodes);
+  for (std::size_t first = 0; first < picture.cells.size(); first += nodes) {
+    std::copy_n(picture.cells.begin() + static_cast<std::ptrdiff_t>(first), nodes, cell.begin());
+    cells->InsertNextCell(static_cast<vtkIdType>(nodes), cell.data());
+  }
+  write_cells(path, time, picture.points, nodes == 8 ? VTK_HEXAHEDRON : VTK_TRIQUADRATIC_HEXAHEDRON, cells,
+              fields(picture.of_points), fields(picture.of_cells));
 }
 
 } // namespace platen::apps

@@ -1,4 +1,4 @@
-// Clouds of particles and sets of lines as VTU files for ParaView: binary (raw appended), compressed (zlib),
+// Particles, lines, discs and finite elements as VTU files for ParaView: binary (raw appended), compressed (zlib),
 // with named fields. Written aside and renamed, so that a file under its name is always whole.
 #pragma once
 
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/vector3.h"
+#include "fem/picture.h"
 
 class vtkXMLWriter;
 
@@ -48,6 +49,9 @@ struct Disc {
 // as above.
 void write_discs(const std::filesystem::path &path, double time, const std::vector<Disc> &discs,
                  const std::vector<Field> &disc_fields);
+
+// The elements of a body, with its fields; errors as above. Active scalars: contact_pressure.
+void write_body(const std::filesystem::path &path, double time, const fem::Picture &picture);
 
 // What a writer of VTK's has for its input. Throws OutputError; a former file stays.
 void write_vtk_aside(const std::filesystem::path &path, vtkXMLWriter &writer);

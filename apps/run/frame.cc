@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "apps/output/file.h"
@@ -58,15 +57,6 @@ std::vector<int> coordination_of(const dem::Model &model) {
     for (std::size_t k = 0; k < model.contacts->table.size(); ++k)
       if (model.contacts->touching[k] != 0) add(model.contacts->first[k], model.contacts->second[k]);
   return count;
-}
-
-// deal.II writes Scalars="scalars" whatever the arrays are called; readers look for an array of that name.
-std::string with_scalars_named(std::string text) {
-  const std::string made_up = "Scalars=\"scalars\"";
-  const auto at = text.find(made_up);
-  if (at == std::string::npos) return text;
-  const bool pressed = text.find("Name=\"contact_pressure\"") != std::string::npos;
-  return text.replace(at, made_up.size(), pressed ? "Scalars=\"contact_pressure\"" : "");
 }
 
 FrameFile spheres_of(const coupling::PlatenTest &problem, const std::vector<int> &moves_with,
@@ -164,19 +154,18 @@ FrameFile bonds_of(const coupling::PlatenTest &problem, const FrameHead &head) {
   });
 }
 
-void add_boundaries(std::vector<FrameFile> &files, const coupling::PlatenTest &problem, int number) {
+void add_boundaries(std::vector<FrameFile> &files, const coupling::PlatenTest &problem,
+                    const FrameHead &head) {
   for (const char *series : {"platens", "sleeve"}) {
     std::vector<const coupling::Pictured *> parts;
     for (const auto &boundary : problem.boundaries())
       if (const coupling::Pictured *part = boundary->pictured(); part != nullptr && part->series() == series)
         parts.push_back(part);
-    int index = static_cast<int>(parts.size()) * number;
+    int index = static_cast<int>(parts.size()) * head.number;
     for (const coupling::Pictured *part : parts) {
-      std::ostringstream vtu;
-      part->write_vtu(vtu);
       files.push_back({series, OutputPaths::frame_name(series, index++),
-                       [text = with_scalars_named(vtu.str())](const std::filesystem::path &path) {
-                         write_text_aside(path, text);
+                       [picture = part->picture(), time = head.time](const std::filesystem::path &path) {
+                         write_body(path, time, picture);
                        }});
     }
   }
@@ -220,7 +209,7 @@ Frame frame_of(const coupling::PlatenTest &problem, const std::vector<int> &move
   const FrameHead head{problem.time(), number, values_of(problem)};
   Frame frame{head.time, {spheres_of(problem, moves_with, head)}};
   if (problem.model.bonds) frame.files.push_back(bonds_of(problem, head));
-  add_boundaries(frame.files, problem, number);
+  add_boundaries(frame.files, problem, head);
   frame.files.push_back(contacts_of(problem, head));
   return frame;
 }

@@ -10,6 +10,7 @@
 #include "apps/scene/regular_file.h"
 #include "dem/laws/normal_contact.h"
 #include "fem/gmsh.h"
+#include "fem/load_solids.h"
 
 namespace platen::apps {
 namespace {
@@ -84,6 +85,7 @@ fem::Grid platen_grid(const Scene &scene, const Face &face) {
   std::ifstream file = open_file(path);
   try {
     if (!file) throw std::invalid_argument(path + ": cannot be read");
+    fem::load_solids();
     return fem::read_gmsh(file, {scene.platens.mesh_unit, path});
   } catch (const std::invalid_argument &e) {
     throw InputError(e.what());

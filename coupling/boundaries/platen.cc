@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <ostream>
 #include <stdexcept>
 #include <string>
 
@@ -151,10 +150,6 @@ void Platen::add_energy(dem::EnergyLedger &energy) const {
 double Platen::seconds_on_spring(const fem::VertexSprings &shared) const {
   const auto sum = [](const std::vector<double> &of) { return std::accumulate(of.begin(), of.end(), 0.0); };
   return machine_->stable_step(sum(shared.stiffness), sum(shared.dashpot));
-}
-
-void Platen::write_vtu(std::ostream &stream) const {
-  body_->write_vtu(stream, layer_.vertex_slip(*body_));
 }
 
 std::vector<dem::GroundSpring> Platen::whole_springs(const dem::Particles &particles) {

@@ -81,7 +81,7 @@ public:
   void add_energy(dem::EnergyLedger &energy) const override;
   ServoLoad servo_load(const dem::Particles &particles) const override;
   std::string series() const override { return "platens"; }
-  void write_vtu(std::ostream &stream) const override;
+  fem::Picture picture() const override { return body_->picture(layer_.vertex_slip(*body_)); }
   void describe(Archive &archive) override;
 
   const fem::Body &body() const { return *body_; }

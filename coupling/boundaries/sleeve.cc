@@ -10,6 +10,7 @@
 #include "base/require.h"
 #include "base/state.h"
 #include "coupling/boundary.h"
+#include "fem/load_solids.h"
 
 namespace platen::coupling {
 
@@ -88,6 +89,7 @@ Sleeve::Sleeve(const dem::Particles &particles, const dem::Shape &shape, const E
 void Sleeve::build(const dem::Particles &particles) {
   const fem::Rubber rubber{settings_.density * mass_scaling(),
                            fem::NeoHookean::from_young(settings_.young_modulus, settings_.poisson_ratio)};
+  fem::load_solids();
   solid_ = std::make_unique<fem::HyperelasticSolid>(tube_around(shape_, low_, high_, settings_), rubber,
                                                     std::vector<int>{fem::inner_tag});
   contact_ = std::make_unique<ContactLayer>(particles, *solid_, settings_.contact);
@@ -170,10 +172,6 @@ fem::HyperelasticSolid &Sleeve::with_loads() const {
   if (loads_due_) contact_->load_body(*solid_);
   loads_due_ = false;
   return *solid_;
-}
-
-void Sleeve::write_vtu(std::ostream &stream) const {
-  with_loads().write_vtu(stream, contact_->vertex_slip(*solid_));
 }
 
 double Sleeve::axial_force_beyond_pressure() const {

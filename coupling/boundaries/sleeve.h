@@ -106,7 +106,7 @@ public:
   // pressure to these. NaN without a pressure, because no element presses then.
   double confined_share() const override;
   std::string series() const override { return "sleeve"; }
-  void write_vtu(std::ostream &stream) const override;
+  fem::Picture picture() const override { return with_loads().picture(contact_->vertex_slip(*solid_)); }
   const ContactLayer &layer() const override { return *contact_; }
   const fem::LoadedSurface &surface() const override { return *solid_; } // its loads may not be summed yet
   using ContactBoundary::layer;

@@ -20,6 +20,8 @@
 #include "apps/output/pvd.h"
 #include "apps/output/vtu.h"
 #include "apps/scratch_folder.h"
+#include "fem/elastic_solid.h"
+#include "fem/rigid_body.h"
 
 namespace platen::apps {
 namespace {
@@ -88,6 +90,54 @@ TEST_F(Vtu, particles_read_back_to_the_same_bits) {
   EXPECT_EQ(range[0], *std::min_element(radius.begin(), radius.end()));
   EXPECT_EQ(range[1], *std::max_element(radius.begin(), radius.end()));
   EXPECT_EQ(grid->GetFieldData()->GetArray("TimeValue")->GetComponent(0, 0), 0.125);
+}
+
+// VTK has a place in the element for each of its points; in an oblique block, whose elements are linear in
+// each direction, the points of all elements must be there.
+TEST_F(Vtu, points_of_finite_elements_are_in_the_order_of_vtk) {
+  const auto oblique = [](const Vector3 &p) {
+    return Vector3{p.x + 0.3 * p.y, p.y - 0.2 * p.z, p.z + 0.1 * p.x};
+  };
+  const fem::Grid block =
+      fem::moved_grid(fem::make_grid(fem::BoxPlate{{0, 0, 0}, {0.3, 0.2, 0.1}, {3, 2, 2}}), oblique);
+  const fem::Material steel{7850, 210e9, 0.3};
+  int bodies = 0;
+  const auto expect_order = [&](const fem::Picture &picture, int type) {
+    path_ = folder_ / ("body_" + std::to_string(bodies++) + ".vtu");
+    write_body(path_, 0.5, picture);
+    vtkUnstructuredGrid *grid = read();
+    ASSERT_EQ(grid->GetNumberOfCells(), 12);
+    double volume = 0; // m^3
+    for (vtkIdType c = 0; c < 12; ++c) {
+      vtkCell *cell = grid->GetCell(c);
+      ASSERT_EQ(cell->GetCellType(), type);
+      double first[3], edge[3][3];
+      cell->GetPoints()->GetPoint(0, first);
+      for (const auto &[axis, corner] : {std::pair{0, 1}, {1, 3}, {2, 4}})
+        cell->GetPoints()->GetPoint(corner, edge[axis]);
+      Vector3 origin{first[0], first[1], first[2]}, along[3];
+      for (int k = 0; k < 3; ++k)
+        along[k] = Vector3{edge[k][0], edge[k][1], edge[k][2]} - origin;
+      volume += dot(cross(along[0], along[1]), along[2]);
+      const double *place = cell->GetParametricCoords();
+      for (vtkIdType k = 0; k < cell->GetNumberOfPoints(); ++k) {
+        double at[3];
+        cell->GetPoints()->GetPoint(k, at);
+        const Vector3 expected =
+            origin + place[3 * k] * along[0] + place[3 * k + 1] * along[1] + place[3 * k + 2] * along[2];
+        EXPECT_LT(norm(Vector3{at[0], at[1], at[2]} - expected), 1e-12) << "point " << k;
+      }
+    }
+    EXPECT_NEAR(volume, fem::volume_moments(block).volume, 1e-15);
+    EXPECT_STREQ(grid->GetPointData()->GetScalars()->GetName(), "contact_pressure");
+    EXPECT_EQ(grid->GetPointData()->GetArray("displacement")->GetNumberOfComponents(), 3);
+    EXPECT_EQ(grid->GetFieldData()->GetArray("TimeValue")->GetComponent(0, 0), 0.5);
+  };
+  expect_order(fem::RigidBody(block, steel).picture(), VTK_HEXAHEDRON);
+  fem::ElasticOptions quadratic;
+  quadratic.degree = 2;
+  expect_order(fem::ElasticSolid(block, {steel}, {}).picture(), VTK_HEXAHEDRON);
+  expect_order(fem::ElasticSolid(block, {steel}, {}, quadratic).picture(), VTK_TRIQUADRATIC_HEXAHEDRON);
 }
 
 TEST_F(Vtu, bonds_are_lines_with_values_of_their_own) {

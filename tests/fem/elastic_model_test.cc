@@ -238,15 +238,15 @@ TEST(elastic_model, stiffness_is_symmetric_and_blind_to_rigid_motions) {
 
 TEST(elastic_model, every_node_of_the_boundary_is_a_vertex) {
   for (const int degree : {1, 2}) {
-    const ElasticModel model =
-        make_elastic_model(make_grid(CylinderPlate{0.03, 0.01, -0.01, 8, 2}), degree, {steel});
+    const Grid grid = make_grid(CylinderPlate{0.03, 0.01, -0.01, 8, 2});
+    const ElasticModel model = make_elastic_model(grid, degree, {steel});
     const NodeSurface s = node_surface(model);
     double area = 0;
     for (std::size_t f = 0; f < s.surface.faces.size(); ++f)
       area += norm(face_area_vector(s.surface, f));
     EXPECT_LT(norm(total_area_vector(s.surface)), 1e-14 * area);
     EXPECT_NEAR(enclosed_volume(s.surface), model.volume, 1e-12 * model.volume);
-    const auto plain = extract_surface(model.grid).surface;
+    const auto plain = extract_surface(grid).surface;
     EXPECT_EQ(s.surface.faces.size(), plain.faces.size() * static_cast<std::size_t>(degree * degree));
     for (std::size_t v = 0; v < s.node.size(); ++v)
       EXPECT_EQ(s.surface.vertices[v], model.nodes[static_cast<std::size_t>(s.node[v])]);

@@ -5,7 +5,8 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
-#include <deal.II/grid/tria.h>
+
+#include "fem/triangulation.h"
 
 namespace platen::fem {
 namespace {

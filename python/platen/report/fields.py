@@ -132,7 +132,7 @@ def with_contacts(spheres, contacts, packing_fraction, folder):
 
 
 # Points of an element in halves of its edges, in the order of the files; the first 8 of an element of degree 1.
-_POINTS = numpy.array([list(map(int, xyz)) for xyz in "000 200 220 020 002 202 222 022 100 210 120 010 102 212 122 012 001 201 021 221 011 "
+_POINTS = numpy.array([list(map(int, xyz)) for xyz in "000 200 220 020 002 202 222 022 100 210 120 010 102 212 122 012 001 201 221 021 011 "
                        "211 101 121 110 112 111".split()]) / 2
 
 
