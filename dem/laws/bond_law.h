@@ -63,13 +63,13 @@ inline bool failed_rows_last(const BondLaw &law) {
 }
 
 // Of those, laws that leave their quick path wherever a bond of a SIMD vector is damaged, and damage many
-// bonds long before they fail: damaged rows stand between the others.
+// bonds long before they fail: their damaged rows are kept between the intact and the failed ones.
 template <class Law, class = void>
-constexpr bool keeps_damaged_apart = false;
+constexpr bool keeps_damaged_separate = false;
 template <class Law>
-constexpr bool keeps_damaged_apart<Law, std::enable_if_t<Law::damaged_rows_apart>> = true;
-inline bool damaged_rows_apart(const BondLaw &law) {
-  return std::visit([](const auto &l) { return keeps_damaged_apart<std::decay_t<decltype(l)>>; }, law);
+constexpr bool keeps_damaged_separate<Law, std::enable_if_t<Law::damaged_rows_separate>> = true;
+inline bool damaged_rows_separate(const BondLaw &law) {
+  return std::visit([](const auto &l) { return keeps_damaged_separate<std::decay_t<decltype(l)>>; }, law);
 }
 
 // Laws whose quick path (cohesive_form.h) reads how a bond's particles move; others do so where a bond is
