@@ -14,7 +14,7 @@ namespace platen::dem {
 
 enum class ShapeKind { cylinder, box, disc };
 
-// A notch as a saw cuts it: from the lower face of a box at mid-length, through its whole breadth along y.
+// A notch as a saw cuts it: from the lower face of a box at mid-length, through its full breadth along y.
 struct Notch {
   double depth = 0; // m, along z; 0: none
   double width = 0; // m, along x; 0: a cut that takes nothing away
