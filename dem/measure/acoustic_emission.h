@@ -47,10 +47,10 @@ double magnitude_of(double energy);
 std::vector<AcousticEvent> gather_events(std::vector<CrackPulse> cracks, const EventWindow &window);
 
 struct BValueRules {
-  double bin = 0.1;         // of magnitude: step of the limits of the range
-  double above_mode = 0.2;  // from the fullest bin to the first limit (Woessner and Wiemer 2005)
-  int least_events = 50;    // in the range
-  double least_share = 0.5; // fraction that the range contains of the events above the first limit
+  double bin = 0.1;            // of magnitude: step of the limits of the range
+  double above_mode = 0.2;     // from the fullest bin to the first limit (Woessner and Wiemer 2005)
+  int least_events = 50;       // in the range
+  double least_fraction = 0.5; // fraction that the range contains of the events above the first limit
   double limit = std::numeric_limits<double>::quiet_NaN(); // NaN: found from the fullest bin
 };
 

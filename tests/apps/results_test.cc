@@ -295,7 +295,7 @@ TEST_F(Along, what_is_measured_along_z_is_not_measured_along_x) {
   crush(x), time_ = 0, crush(z);
   for (Results *results : {&x, &z}) {
     const dem::FailureMeasures &failure = results->last_pattern().failure;
-    for (const double value : {failure.broken_share, failure.damage.end_top, failure.damage.middle})
+    for (const double value : {failure.broken_fraction, failure.damage.end_top, failure.damage.middle})
       EXPECT_EQ(std::isnan(value), results == &x);
     const Scene scene;
     const RunCosts costs;
@@ -308,7 +308,7 @@ TEST_F(Along, what_is_measured_along_z_is_not_measured_along_x) {
       EXPECT_EQ(told, results == &x) << gauged;
     }
   }
-  EXPECT_TRUE(std::isnan(x.pattern().failure.broken_share));
+  EXPECT_TRUE(std::isnan(x.pattern().failure.broken_fraction));
 }
 
 // Both ends by turns: a dome is told as one, on whichever platen it stands.
