@@ -90,10 +90,10 @@ std::string confinement_against(const Results &results, double time) {
   const std::vector<Sample> &samples = results.samples();
   const auto at =
       std::find_if(samples.begin(), samples.end(), [&](const Sample &s) { return s.time >= time; });
-  if (at == samples.end() || !(at->confined_share < least_confined)) return "";
+  if (at == samples.end() || !(at->confined_fraction < least_confined)) return "";
   return fmt::format(
       "the pressure loaded {:.0f} % of the lateral surface then, {:.0f} % at least: pieces have come loose",
-      100 * at->confined_share, 100 * least_confined);
+      100 * at->confined_fraction, 100 * least_confined);
 }
 
 PressurePath pressure_path(const coupling::PlatenTest &problem, const Results &results) {
