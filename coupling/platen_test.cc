@@ -213,9 +213,9 @@ void PlatenTest::choose_rates() {
   servo_slowness_ = gain_of_cell / gain_of_servo();
   if (!loading.cell) return;
   for (const StageSettings &stage : loading.stages)
-    for (const SideAsk &ask : stage.asks)
-      if (ask.ask == SideAsk::Ask::pressure)
-        loading.cell->pressure = std::max(loading.cell->pressure, ask.value);
+    for (const SideControl &control : stage.controls)
+      if (control.mode == SideControl::Mode::pressure)
+        loading.cell->pressure = std::max(loading.cell->pressure, control.value);
   cell_ramp_ = loading.cell->ramp > 0 ? loading.cell->ramp : transit > 0 ? ramp_of_stress() : 0;
   if (!(cell_ramp_ > 0))
     throw BadSetup("loading.cell.ramp", "has to be given: without bonds there is no wave to take it from.");

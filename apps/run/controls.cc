@@ -20,7 +20,7 @@ bool is_stress(const Controlled &c) {
 // "3.42 of 5 MPa"
 std::string reached_of_asked(const Controlled &c) {
   const double unit = is_stress(c) ? 1e-6 : 1;
-  return fmt::format("{:.4g} of {:.4g} {}", unit * c.reached, unit * c.asked, is_stress(c) ? "MPa" : c.unit);
+  return fmt::format("{:.4g} of {:.4g} {}", unit * c.reached, unit * c.target, is_stress(c) ? "MPa" : c.unit);
 }
 
 std::vector<Controlled> misses(const coupling::PlatenTest &problem, std::size_t stage) {
@@ -33,7 +33,7 @@ std::vector<Controlled> misses(const coupling::PlatenTest &problem, std::size_t 
 bool is_asked_again(const coupling::PlatenTest &problem, int axis, std::size_t after, std::size_t until) {
   for (std::size_t stage = after + 1; stage <= until; ++stage)
     for (const Controlled &c : problem.program().controls(stage))
-      if (c.axis == axis && !c.held) return true;
+      if (c.axis == axis && !c.constant) return true;
   return false;
 }
 

@@ -210,10 +210,10 @@ coupling::PlatenTestSettings driven_along_x() {
   coupling::PlatenSide side;
   s.platens.left = s.platens.right = s.platens.front = s.platens.back = side;
   coupling::StageSettings stage;
-  stage.asks.emplace_back();
-  stage.asks.back().side = coupling::SideGroup::lateral_x;
-  stage.asks.back().ask = coupling::SideAsk::Ask::rate;
-  stage.asks.back().value = 0.1;
+  stage.controls.emplace_back();
+  stage.controls.back().side = coupling::SideGroup::lateral_x;
+  stage.controls.back().mode = coupling::SideControl::Mode::rate;
+  stage.controls.back().value = 0.1;
   stage.until = {{coupling::Until::Reached::time, 1}};
   s.loading.stages = {stage};
   return s;
