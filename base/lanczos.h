@@ -34,7 +34,7 @@ template <class Vector>
 struct LargestEigenvalue {
   double value = 0; // upper bound but for round-off: the Ritz value plus its residual (Zhou and Li 2011)
   int iterations = 0;
-  Vector mode; // roughly
+  Vector mode; // approximate
 };
 
 // apply(x): the product of the matrix with x. `x`: start vector, not zero. Vector needs the functions

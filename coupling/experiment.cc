@@ -200,7 +200,7 @@ void Experiment::carry(const std::vector<Vector3> &displacement, const std::vect
     commands_[b].velocity = (1 / pseudo_step) * of_boundaries.at(b);
   const ExactSum damped = model.works.damping;
   {
-    struct Back { // also when forces throw
+    struct Back { // restores the time step, also when forces throw
       double &step, chosen;
       ~Back() { step = chosen; }
     } const back{time_step_, time_step_};

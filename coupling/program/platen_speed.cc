@@ -16,11 +16,11 @@ constexpr double fraction_per_step = 0.02, largest_fraction = 10 * fraction_per_
 // of the velocity by dashpots in the contacts, whose force follows the velocity at once.
 constexpr double smoothing = 0.5;
 
-// Of the steepest secant: a smaller slope is failure.
+// Fraction of the steepest secant; a smaller slope counts as failure.
 constexpr double elastic_fraction = 0.8;
-// Of all bonds, broken in a transit: a larger fraction is failure.
+// Fraction of all bonds; if a larger one breaks within a transit, this counts as failure.
 constexpr double breaking_fraction = 5e-5;
-// Between two slopes: in one transit stress rises by no more than the inertial stress of starting platens.
+// Transits between two slopes; in one alone, stress rises by no more than the inertia of starting platens.
 constexpr double transits_of_slope = 5;
 // Time for which the platens keep to their speed at first, and after a check that has found failure.
 constexpr double transits_of_care = 10;

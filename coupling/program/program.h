@@ -73,8 +73,8 @@ struct Controlled {
   bool is_met() const;
 };
 
-// How a stage increases the load along the loaded axis in the sense of the test. Otherwise (none) a falling
-// stress falls by command, and a stress that is constant under stress control is constant by command.
+// How a stage increases the load along the loaded axis in the sense of the test. With `none` the load does
+// not increase: a fall of the stress, or a constant stress under stress control, is then prescribed.
 enum class Loads { none, by_closure, by_stress, by_widening };
 
 class Stage {

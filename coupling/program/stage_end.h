@@ -32,7 +32,7 @@ struct Until {
 
 // "strain change", "share of peak"
 const char *name_of(Until::Reached what);
-// How the specimen has widened at that end; none where it looks at something else.
+// The kind of widening that the condition reads; no value for other conditions.
 std::optional<Widening> widening_of(Until::Reached what);
 
 class StageEnd {

@@ -8,8 +8,8 @@ namespace platen::coupling {
 
 namespace {
 
-// The error is closed within this many wave transits where the specimen lags; where it fails, within this
-// many: an action of the platens reaches the middle within half a transit.
+// Wave transits within which an error is closed: the first number while the specimen lags behind the target,
+// the second while it fails. An action of the platens reaches the middle within half a transit.
 constexpr double transits_of_approach = 20, transits_of_retreat = 1;
 // Fraction of its length by which a specimen is unloaded in a transit at most.
 constexpr double most_released = 1e-4;

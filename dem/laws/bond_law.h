@@ -78,8 +78,8 @@ template <class Law, class = void>
 constexpr bool reads_motion = false;
 template <class Law>
 constexpr bool reads_motion<Law, std::enable_if_t<Law::intact_reads_motion>> = true;
-// Laws for which the rows of a block hold the velocities of its particles: those, and others that have a
-// quick path without but leave it in most vectors.
+// Laws for which the rows of a block hold the velocities of its particles: the laws above, and laws whose
+// quick path reads no motion but which leave this path in most vectors.
 template <class Law, class = void>
 constexpr bool rows_hold_motion = reads_motion<Law>;
 template <class Law>

@@ -74,7 +74,7 @@ enum class PowerLaw {
 // rejected: its distance from the events (Kolmogorov and Smirnov, with fitted parameter: Stephens 1974) is
 // below the value that a tenth of such samples exceed; without an upper end the largest event is also as
 // large as in 95 % of such catalogues. The range must contain the rules' fraction of the events above the
-// first M_c, the rate must fall to a tenth over it and the energy grow tenfold: less is no power law.
+// first M_c, the rate must fall to a tenth over it and the energy grow tenfold: less shows no power law.
 struct BValue {
   double b = std::numeric_limits<double>::quiet_NaN(), error = b; // NaN if no law holds
   double limit = b;                                               // M_c; if no law holds, the first one
