@@ -49,7 +49,7 @@ constexpr Block look_alikes[] = {{0x370, 0x3ff, "Greek letter"},
 struct Decoded {
   std::uint32_t code = 0;
   std::size_t bytes = 1;
-  bool sound = true;
+  bool valid = true;
 };
 
 Decoded decoded(std::string_view text, std::size_t at) {
@@ -78,7 +78,7 @@ const char *name_in(const Block (&blocks)[n], std::uint32_t code) {
 
 std::string name_of(const Decoded &one, const char *name) {
   std::array<char, 32> number{};
-  if (!one.sound) {
+  if (!one.valid) {
     std::snprintf(number.data(), number.size(), "the byte %02X", one.code);
     return std::string(number.data()) + ", which is no UTF-8";
   }
@@ -112,12 +112,12 @@ std::string replaced(const std::string &text, const std::string &what, const std
 
 std::optional<Character> first_unseen(std::string_view text) {
   return first_named(text,
-                     [](const Decoded &one) { return one.sound ? name_in(unseen, one.code) : "no UTF-8"; });
+                     [](const Decoded &one) { return one.valid ? name_in(unseen, one.code) : "no UTF-8"; });
 }
 
 std::optional<Character> first_look_alike(std::string_view text) {
   return first_named(text, [](const Decoded &one) {
-    return one.sound && one.code != greek_mu ? name_in(look_alikes, one.code) : nullptr;
+    return one.valid && one.code != greek_mu ? name_in(look_alikes, one.code) : nullptr;
   });
 }
 

@@ -8,16 +8,18 @@
 namespace platen {
 
 // The largest eigenvalue of a symmetric tridiagonal matrix, and the absolute last component of its unit
-// eigenvector. `beside`: the off-diagonal entries, one fewer, above 0; further ones are not read.
+// eigenvector. `off_diagonal`: the off-diagonal entries, one fewer, above 0; further ones are not read.
 struct LargestRitzValue {
   double value = 0, last_component = 0;
 };
 using FindRitzValue = LargestRitzValue (*)(const std::vector<double> &diagonal,
-                                           const std::vector<double> &beside);
+                                           const std::vector<double> &off_diagonal);
 // Computes all eigenvectors by Eigen: n^3 operations.
-LargestRitzValue largest_ritz_value(const std::vector<double> &diagonal, const std::vector<double> &beside);
+LargestRitzValue largest_ritz_value(const std::vector<double> &diagonal,
+                                    const std::vector<double> &off_diagonal);
 // By bisection: 60 n operations, for calls in every iteration. The value is an upper bound.
-LargestRitzValue bisected_ritz_value(const std::vector<double> &diagonal, const std::vector<double> &beside);
+LargestRitzValue bisected_ritz_value(const std::vector<double> &diagonal,
+                                     const std::vector<double> &off_diagonal);
 
 struct LanczosLimits {
   int least = 4; // iterations before it may end: an early Ritz value may sit on a lower eigenvalue
@@ -32,7 +34,7 @@ template <class Vector>
 struct LargestEigenvalue {
   double value = 0; // upper bound but for round-off: the Ritz value plus its residual (Zhou and Li 2011)
   int iterations = 0;
-  Vector mode; // roughly
+  Vector mode; // approximate
 };
 
 // apply(x): the product of the matrix with x. `x`: start vector, not zero. Vector needs the functions
@@ -42,7 +44,7 @@ LargestEigenvalue<Vector> largest_eigenvalue(const Apply &apply, Vector x, const
                                              FindRitzValue find_ritz_value = largest_ritz_value) {
   multiply(x, 1 / std::sqrt(inner(x, x)));
   Vector before;
-  std::vector<double> diagonal, beside;
+  std::vector<double> diagonal, off_diagonal;
   LargestRitzValue ritz;
   double residual = 0;
   int done = 0;
@@ -50,18 +52,18 @@ LargestEigenvalue<Vector> largest_eigenvalue(const Apply &apply, Vector x, const
     Vector y = apply(x);
     diagonal.push_back(inner(x, y));
     add(y, -diagonal.back(), x);
-    if (done > 0) add(y, -beside.back(), before);
+    if (done > 0) add(y, -off_diagonal.back(), before);
     const double length = std::sqrt(inner(y, y));
     ++done;
     const bool look = done <= limits.least || done % limits.every == 0 || done == limits.most;
     if (look) {
-      ritz = find_ritz_value(diagonal, beside);
+      ritz = find_ritz_value(diagonal, off_diagonal);
       residual = length * ritz.last_component;
     }
     if (look && done > limits.least && residual <= limits.residual * ritz.value) break;
     if (look && done >= limits.least_for_enough && ritz.value + residual < limits.enough) break;
     if (length <= 1e-14 * ritz.value) break; // the Krylov space is exhausted
-    beside.push_back(length);
+    off_diagonal.push_back(length);
     before = std::exchange(x, std::move(y));
     multiply(x, 1 / length);
   }

@@ -6,7 +6,7 @@
 
 namespace platen {
 
-// std::max and std::fmax can ignore a NaN and then return a largest value that is not true.
+// std::max and std::fmax can ignore a NaN and then return a wrong largest value.
 class Largest {
 public:
   void add(double value) {

@@ -28,9 +28,9 @@ void run_loops(const Loop &first, const Loop &second = {});
 // loop.
 template <class Body>
 void for_each_block(std::size_t rows, const Body &body, std::size_t per_block = block_rows,
-                    const Loop &beside = {}) {
+                    const Loop &parallel_loop = {}) {
   const auto part = [&](std::size_t b) { body(b * per_block, std::min(rows, (b + 1) * per_block), b); };
-  run_loops(loop_of(number_of_blocks(rows, per_block), part), beside);
+  run_loops(loop_of(number_of_blocks(rows, per_block), part), parallel_loop);
 }
 
 // Block numbers, ascending.
@@ -38,13 +38,14 @@ using BlockList = std::vector<int>;
 
 // The same for the listed blocks; without a list, for all.
 template <class Body>
-void for_listed_blocks(const BlockList *listed, std::size_t rows, const Body &body, const Loop &beside = {}) {
-  if (listed == nullptr) return for_each_block(rows, body, block_rows, beside);
+void for_listed_blocks(const BlockList *listed, std::size_t rows, const Body &body,
+                       const Loop &parallel_loop = {}) {
+  if (listed == nullptr) return for_each_block(rows, body, block_rows, parallel_loop);
   const auto part = [&](std::size_t k) {
     const std::size_t b = static_cast<std::size_t>((*listed)[k]);
     body(b * block_rows, std::min(rows, (b + 1) * block_rows), b);
   };
-  run_loops(loop_of(listed->size(), part), beside);
+  run_loops(loop_of(listed->size(), part), parallel_loop);
 }
 
 // body(row) for every row. Use smaller blocks for expensive rows.

@@ -152,7 +152,7 @@ bool LoadingArchive::block(const std::string &path, const BlockType &type, const
   if (!rows.resize && stored.rows != rows.count)
     throw StateError("\"" + path + "\" has " + std::to_string(stored.rows) + " rows, " +
                      std::to_string(rows.count) + " are needed");
-  asked_.insert(path);
+  requested_.insert(path);
   if (!reads()) require_allowed(source_, path, stored, allowed);
   if (!reads() && !rows.is_local) return true;
   void *data = rows.resize ? rows.resize(stored.rows) : rows.data;
@@ -160,9 +160,9 @@ bool LoadingArchive::block(const std::string &path, const BlockType &type, const
   return true;
 }
 
-void LoadingArchive::require_all_asked() const {
+void LoadingArchive::require_all_requested() const {
   for (const std::string &name : source_.names())
-    if (asked_.count(name) == 0)
+    if (requested_.count(name) == 0)
       throw StateError("holds \"" + name + "\", which this program has no place for");
 }
 

@@ -52,14 +52,14 @@ public:
   bool reads() const override { return pass_ == Pass::read; }
   const StateSource *looks_at() const override { return reads() ? nullptr : &source_; }
   // After all parts: throws StateError where the source contains a block that no part has requested.
-  void require_all_asked() const;
+  void require_all_requested() const;
 
 private:
   bool block(const std::string &path, const BlockType &type, const Rows &rows, bool may_lack,
              const Allowed &allowed) override;
   const StateSource &source_;
   Pass pass_;
-  std::set<std::string> asked_;
+  std::set<std::string> requested_;
 };
 
 // Reads all of a source with describe(archive). Throws StateError where the state does not match these parts,
@@ -69,7 +69,7 @@ void read_parts(const StateSource &source, const Describe &describe,
                 const std::function<void()> &fits = nullptr) {
   LoadingArchive look(source, LoadingArchive::Pass::look), read(source, LoadingArchive::Pass::read);
   describe(look);
-  look.require_all_asked();
+  look.require_all_requested();
   if (fits) fits();
   describe(read);
 }

@@ -24,9 +24,9 @@ public:
   const std::string &unit() const { return unit_; } // SI, e.g. "m/s"; "1" where there is none
   virtual std::size_t size() const = 0;
   virtual void resize(std::size_t n) = 0;
-  // Row k becomes the former row order[k]; order may be shorter than the column (gather). `room`: number of
-  // further rows for which memory is reserved.
-  virtual void permute(const std::vector<int> &order, std::size_t room) = 0;
+  // Row k becomes the former row order[k]; order may be shorter than the column (gather). `reserve`: number
+  // of further rows for which memory is allocated.
+  virtual void permute(const std::vector<int> &order, std::size_t reserve) = 0;
   // The same within the rows from `first` on: row first + k becomes the former row first + order[k].
   virtual void permute_from(std::size_t first, const std::vector<int> &order) = 0;
   virtual BlockType type() const = 0;
@@ -66,9 +66,9 @@ public:
     values_.resize(n + spare);
     values_[n] = T{};
   }
-  void permute(const std::vector<int> &order, std::size_t room) override {
+  void permute(const std::vector<int> &order, std::size_t reserve) override {
     std::vector<T> moved;
-    moved.reserve(order.size() + room + spare);
+    moved.reserve(order.size() + reserve + spare);
     moved.resize(order.size() + spare);
     for (std::size_t k = 0; k < order.size(); ++k)
       moved[k] = values_[order[k]];
@@ -123,9 +123,9 @@ public:
       column->resize(n);
     size_ = n;
   }
-  void permute(const std::vector<int> &order, std::size_t room = 0) {
+  void permute(const std::vector<int> &order, std::size_t reserve = 0) {
     for (auto &column : columns_)
-      column->permute(order, room);
+      column->permute(order, reserve);
     size_ = order.size();
   }
   void permute_from(std::size_t first, const std::vector<int> &order) {

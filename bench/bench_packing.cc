@@ -63,7 +63,7 @@ dem::Specimen packed(const Options &o, const dem::Shape &shape) {
   dem::Specimen specimen = dem::tiled_close_packing(shape, radius, o.spread, tile, seed, &made, o.at_rest);
   std::printf("%.2f tiles of %zu (fraction %.4f, %ld iterations), period %.2f R; %ld iterations, %d stages\n",
               made.tiles, made.tile.spheres, made.tile.packing_fraction, made.tile.iterations,
-              made.period / radius, made.whole.iterations, made.whole.stages);
+              made.period / radius, made.specimen.iterations, made.specimen.stages);
   return specimen;
 }
 

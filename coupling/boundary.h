@@ -139,7 +139,7 @@ public:
   double load() const { return dot(force(), -1.0 * inward()); } // N, with which a platen presses
   virtual double pressure() const { return 0; }                 // Pa, mean, on the lateral surface
   // 1, fraction of the lateral surface that a cell's pressure loads; NaN where there is no cell or no value.
-  virtual double confined_share() const { return std::numeric_limits<double>::quiet_NaN(); }
+  virtual double confined_fraction() const { return std::numeric_limits<double>::quiet_NaN(); }
   virtual double speed() const { return 0; } // m/s, at which the machine moves it
   virtual ServoLoad servo_load(const dem::Particles &) const { return {}; }
   virtual std::size_t bytes() const { return 0; } // of rows and search lists

@@ -17,12 +17,12 @@ namespace {
 // Particles without contacts affect no sum, so all are checked after this many steps: 0.1 % of their cost.
 constexpr long steps_between_checks = 100;
 
-bool share_none(const Boundary &a, const Boundary &b) {
+bool have_no_common_particle(const Boundary &a, const Boundary &b) {
   const std::vector<int> *one = a.listed_particles(), *other = b.listed_particles();
   if (one == nullptr || other == nullptr) return false;
-  std::vector<int> shared;
-  std::set_intersection(one->begin(), one->end(), other->begin(), other->end(), std::back_inserter(shared));
-  return shared.empty();
+  std::vector<int> common;
+  std::set_intersection(one->begin(), one->end(), other->begin(), other->end(), std::back_inserter(common));
+  return common.empty();
 }
 
 } // namespace
@@ -161,8 +161,10 @@ void Experiment::group_boundaries() {
   lists_grouped_ = lists;
   groups_.clear();
   for (std::size_t b = 0; b < boundaries_.size(); ++b) {
-    const auto apart = [&](std::size_t other) { return share_none(*boundaries_[b], *boundaries_[other]); };
-    if (groups_.empty() || !std::all_of(groups_.back().begin(), groups_.back().end(), apart))
+    const auto separate = [&](std::size_t other) {
+      return have_no_common_particle(*boundaries_[b], *boundaries_[other]);
+    };
+    if (groups_.empty() || !std::all_of(groups_.back().begin(), groups_.back().end(), separate))
       groups_.emplace_back();
     groups_.back().push_back(b);
   }
@@ -198,7 +200,7 @@ void Experiment::carry(const std::vector<Vector3> &displacement, const std::vect
     commands_[b].velocity = (1 / pseudo_step) * of_boundaries.at(b);
   const ExactSum damped = model.works.damping;
   {
-    struct Back { // also when forces throw
+    struct Back { // restores the time step, also when forces throw
       double &step, chosen;
       ~Back() { step = chosen; }
     } const back{time_step_, time_step_};

@@ -240,20 +240,21 @@ private:
 
   bool bonded() const { return s_.model.bond.has_value(); }
   bool remembers() const {
-    return bonded() && dem::BondLaws::ask(s_.model.bond->index(), [](auto *law) { return law->has_history; });
+    return bonded() &&
+           dem::BondLaws::holds(s_.model.bond->index(), [](auto *law) { return law->has_history; });
   }
   bool verlet() const { return s_.model.scheme == dem::Scheme::velocity_verlet; }
   bool alone() const { return l_.cell && l_.cell->alone; }
   bool has_sides() const { return p_.left || p_.right || p_.front || p_.back; }
   bool has_servo() const {
-    const auto on_top = [](const SideAsk &ask) {
-      const std::vector<Side> asked = sides_of(ask.side);
-      return ask.ask != SideAsk::Ask::rate && ask.ask != SideAsk::Ask::hold && !widening_of(ask.ask) &&
-             std::count(asked.begin(), asked.end(), Side::top) > 0;
+    const auto on_top = [](const SideControl &control) {
+      const std::vector<Side> sides = sides_of(control.side);
+      return control.mode != SideControl::Mode::rate && control.mode != SideControl::Mode::hold &&
+             !widening_of(control.mode) && std::count(sides.begin(), sides.end(), Side::top) > 0;
     };
     return l_.servo || l_.cell ||
            std::any_of(l_.stages.begin(), l_.stages.end(), [&](const StageSettings &stage) {
-             return std::any_of(stage.asks.begin(), stage.asks.end(), on_top);
+             return std::any_of(stage.controls.begin(), stage.controls.end(), on_top);
            });
   }
 

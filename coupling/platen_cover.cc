@@ -78,7 +78,7 @@ public:
         low_{lowest(shape, (axis + 1) % 3), lowest(shape, (axis + 2) % 3)} {}
 
   // Fraction of the end's points that lie in any of these outlines.
-  double share_in(const std::vector<Outline> &outlines) const {
+  double fraction_in(const std::vector<Outline> &outlines) const {
     std::vector<char> inside(static_cast<std::size_t>(points_across) * points_across, 0);
     for (const Outline &outline : outlines)
       for (int i = first(outline.low[0], 0); i <= last(outline.high[0], 0); ++i)
@@ -132,9 +132,9 @@ PlatenCover cover_of(const dem::Shape &shape, const fem::SurfaceMesh &surface, S
     }
   cover.extent = {high[0] - low[0], high[1] - low[1]};
   const PointsOfEnd points(shape, axis_of(side));
-  cover.facing = points.share_in(outlines);
+  cover.facing = points.fraction_in(outlines);
   cover.within_reach =
-      points.share_in({rectangle({low[0] - edge, low[1] - edge}, {high[0] + edge, high[1] + edge})});
+      points.fraction_in({rectangle({low[0] - edge, low[1] - edge}, {high[0] + edge, high[1] + edge})});
   return cover;
 }
 

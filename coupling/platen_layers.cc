@@ -23,7 +23,7 @@ const std::vector<PlatenLayer> &given_layers(const PlatenSettings &p, Side side)
   return own.empty() ? p.elastic->layers : own;
 }
 
-void require_sound(const PlatenLayer &layer, const std::string &member) {
+void require_valid(const PlatenLayer &layer, const std::string &member) {
   try {
     fem::check(layer.material, "a layer");
   } catch (const std::invalid_argument &e) {
@@ -37,7 +37,7 @@ std::vector<fem::Material> materials_of_grid(const PlatenSettings &p, Side side)
   const std::vector<PlatenLayer> &layers = given_layers(p, side);
   std::vector<fem::Material> materials;
   for (const PlatenLayer &layer : layers) {
-    require_sound(layer, owner(p, side));
+    require_valid(layer, owner(p, side));
     materials.push_back(layer.material);
   }
   if (!layers.empty() && static_cast<int>(layers.size()) != volumes)
@@ -61,22 +61,22 @@ double thickness_of(const PlatenSettings &settings, Side side) {
 }
 
 std::vector<PlatenLayer> layers_of(const PlatenSettings &p, Side side) {
-  const double whole = thickness_of(p, side);
+  const double thickness = thickness_of(p, side);
   const ElasticPlatens &elastic = *p.elastic;
   std::vector<PlatenLayer> layers = given_layers(p, side);
   if (layers.empty() && elastic.pad_thickness > 0)
-    return {{elastic.pad_thickness, elastic.pad}, {whole - elastic.pad_thickness, p.material}};
+    return {{elastic.pad_thickness, elastic.pad}, {thickness - elastic.pad_thickness, p.material}};
   double sum = 0;
   for (const PlatenLayer &layer : layers) {
     if (!(layer.thickness > 0))
       throw BadSetup(owner(p, side), "has a layer of no thickness. Allowed: above 0 m each.");
-    require_sound(layer, owner(p, side));
+    require_valid(layer, owner(p, side));
     sum += layer.thickness;
   }
-  if (sum > (1 + round_off) * whole)
-    throw BadSetup(owner(p, side), "is " + text_of(sum) + " m thick. Allowed: up to " + text_of(whole) +
+  if (sum > (1 + round_off) * thickness)
+    throw BadSetup(owner(p, side), "is " + text_of(sum) + " m thick. Allowed: up to " + text_of(thickness) +
                                        " m, the thickness of the platen.");
-  if (whole - sum > round_off * whole) layers.push_back({whole - sum, p.material});
+  if (thickness - sum > round_off * thickness) layers.push_back({thickness - sum, p.material});
   return layers;
 }
 
@@ -86,8 +86,8 @@ std::vector<fem::Layer> elements_of_layers(const PlatenSettings &p, Side side, d
   std::vector<fem::Layer> elements;
   for (std::size_t k = 0; k < layers.size(); ++k) {
     const double alike = 0.5 * p.elements_across * layers[k].thickness / half_width;
-    const bool held = k + 1 == layers.size();
-    const int least = layers.size() == 1 ? 2 : held ? 1 : 2 / p.elastic->degree;
+    const bool fixed = k + 1 == layers.size();
+    const int least = layers.size() == 1 ? 2 : fixed ? 1 : 2 / p.elastic->degree;
     elements.push_back({layers[k].thickness, std::max(least, static_cast<int>(std::lround(alike)))});
   }
   if (!is_high(side)) std::reverse(elements.begin(), elements.end());

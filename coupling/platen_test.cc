@@ -34,7 +34,7 @@ constexpr double gain_of_platens = 40;
 constexpr double servo_reserve = 10;
 // The pressure compresses the springs between spheres and sleeve by about a twenty-fifth of a radius (each
 // carries the pressure on some 4 R^2); they are not softer than this fraction of the mean bond.
-constexpr double springs_of_pressure = 100, least_share_of_bond = 0.01;
+constexpr double springs_of_pressure = 100, least_fraction_of_bond = 0.01;
 
 // A servo moves the top platen at some time.
 } // namespace
@@ -76,9 +76,9 @@ PlatenTest::PlatenTest(const dem::Specimen &specimen, const PlatenTestSettings &
   require_one_section();
   if (notched()) measure_mouth();
   facts_ = facts_of(specimen, settings.model, model);
-  facts_.voigt_modulus /= section_share(); // per volume of the load-bearing part; wave speeds are the same
+  facts_.voigt_modulus /= section_fraction(); // per volume of the load-bearing part; wave speeds are the same
   for (double &modulus : facts_.affine_moduli)
-    modulus /= section_share();
+    modulus /= section_fraction();
   for (const Side side : all_sides)
     require_cover(side);
   seat_platens(specimen);
@@ -101,7 +101,7 @@ void PlatenTest::require_one_section() const {
   if (bent() || shape().kind == dem::ShapeKind::disc || loaded_axis(*this) != 2)
     throw BadSetup("net_section", "is of specimens that are pressed or pulled along z. Allowed: nominal.");
   if (section_.same_at_all_heights()) return;
-  const auto percent = [](double share) { return std::to_string(std::lround(100 * share)); };
+  const auto percent = [](double fraction) { return std::to_string(std::lround(100 * fraction)); };
   throw BadSetup("net_section", "is not one: the spheres fill " + percent(section_.least) + " to " +
                                     percent(section_.largest) +
                                     " % of the shape's section by height. Allowed: nominal.");
@@ -136,7 +136,7 @@ void PlatenTest::add_platens(const dem::Specimen &specimen) {
     PlatenOfTest made = make_platen(specimen, settings_, side, model);
     platens_[static_cast<std::size_t>(side)] = made.platen.get();
     if (has_neighbours(settings_.platens, side))
-      made.platen->set_room(edge_gap(shape(), settings_.platens, axis_of(side)));
+      made.platen->set_clearance(edge_gap(shape(), settings_.platens, axis_of(side)));
     if (side == Side::top) elastic_top_ = made.elastic;
     add(std::move(made.platen));
   }
@@ -213,9 +213,9 @@ void PlatenTest::choose_rates() {
   servo_slowness_ = gain_of_cell / gain_of_servo();
   if (!loading.cell) return;
   for (const StageSettings &stage : loading.stages)
-    for (const SideAsk &ask : stage.asks)
-      if (ask.ask == SideAsk::Ask::pressure)
-        loading.cell->pressure = std::max(loading.cell->pressure, ask.value);
+    for (const SideControl &control : stage.controls)
+      if (control.mode == SideControl::Mode::pressure)
+        loading.cell->pressure = std::max(loading.cell->pressure, control.value);
   cell_ramp_ = loading.cell->ramp > 0 ? loading.cell->ramp : transit > 0 ? ramp_of_stress() : 0;
   if (!(cell_ramp_ > 0))
     throw BadSetup("loading.cell.ramp", "has to be given: without bonds there is no wave to take it from.");
@@ -247,7 +247,7 @@ void PlatenTest::add_sleeve(const CellSettings &cell, double bond) {
   settings.contact.particle_stiffness =
       cell.sleeve_stiffness > 0
           ? cell.sleeve_stiffness * bond
-          : std::max(springs_of_pressure * cell.pressure * facts_.mean_radius, least_share_of_bond * bond);
+          : std::max(springs_of_pressure * cell.pressure * facts_.mean_radius, least_fraction_of_bond * bond);
   settings.contact.skin = surface_skin * facts_.mean_radius;
   settings.contact.instruction_set = model.settings().instruction_set;
   settings.seat_depth = cell.sleeve_seat_depth * facts_.mean_radius;

@@ -43,7 +43,7 @@ public:
   const SpecimenFacts &facts() const { return facts_; }
   const dem::SolidSection &section() const { return section_; } // across the loaded axis; of a bent bar, x
   // Fraction of the shape's section for stresses along z: 1, except with net_section where it is not filled.
-  double section_share() const { return settings_.net_section && !section_.fills() ? section_.mean : 1; }
+  double section_fraction() const { return settings_.net_section && !section_.fills() ? section_.mean : 1; }
   double coordination_number() const;                          // bonds per particle times two
   double ramp() const { return ramp_; }                        // s, of the axial loading
   double cell_ramp() const { return cell_ramp_; }              // s; 0 without a cell
@@ -103,14 +103,14 @@ public:
   const MachineSpring *machine() const { return top().machine(); } // null: a rigid one
   double machine_closure() const;          // m, of the crosshead and the bottom platen; NaN without a spring
   double confining_pressure() const;       // Pa, of a cell, as it acts on the lateral surface, or on the wall
-  double confined_share() const;           // 1, of the lateral surface that a cell loads; NaN without one
+  double confined_fraction() const;        // 1, of the lateral surface that a cell loads; NaN without one
   double sleeve_volumetric_strain() const; // within the sleeve, positive in compression; NaN without one
   // Pa over nominal_area(): pressure of the platens on the sleeve's ends, which stress_top() and
   // stress_bottom() leave out, in excess of the pressure in the rubber. NaN without a sleeve.
   double sleeve_deviator() const;
   // m^2: the cross-section, or the net one; of a bent bar that which gives the nominal flexural stress.
   double nominal_area() const {
-    return bent() ? three_points().nominal_area() : section_share() * shape().cross_section();
+    return bent() ? three_points().nominal_area() : section_fraction() * shape().cross_section();
   }
   bool notched() const { return shape().notch.is_there(); }
   dem::ThreePoints three_points() const {

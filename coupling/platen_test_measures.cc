@@ -67,7 +67,7 @@ double PlatenTest::widening(Widening of) const {
   return of == Widening::mouth ? mouth_opening() : circumferential_strain();
 }
 
-// Of a bar that is bent nothing is led by its circumference.
+// The circumference controls no bar in bending.
 std::vector<int> PlatenTest::rows_measured() const {
   const auto needed = [&](Widening of) {
     const auto &stages = settings_.loading.stages;
@@ -87,9 +87,9 @@ double PlatenTest::confining_pressure() const {
   return sum;
 }
 
-double PlatenTest::confined_share() const {
+double PlatenTest::confined_fraction() const {
   for (const auto &boundary : boundaries())
-    if (const double share = boundary->confined_share(); !std::isnan(share)) return share;
+    if (const double fraction = boundary->confined_fraction(); !std::isnan(fraction)) return fraction;
   return none;
 }
 

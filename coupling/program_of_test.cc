@@ -13,24 +13,24 @@
 namespace platen::coupling {
 namespace {
 
-using Ask = SideAsk::Ask;
+using Mode = SideControl::Mode;
 using Reached = Until::Reached;
 
 // A stage whose stress does not settle ends after twice the time of ramp and hold.
 constexpr double patience = 2;
-// A fraction or a path follows with this lag in wave transits: long enough for waves to pass, and for the
-// specimen's own response, which would oscillate otherwise.
-constexpr double lag_of_share = 4;
+// A stress that is a fraction of another, or on a path, follows with this lag in wave transits: long enough
+// for waves to pass, and for the specimen's own response, which would oscillate otherwise.
+constexpr double lag_of_fraction = 4;
 // A pressure along a path follows with this lag, and with more where it rises more than the deviator and so
 // feeds back on it: while platens accelerate within ten wave transits, it stays on its path within a percent.
 constexpr double lag_of_path = 1.5;
 // Velocity limit for fractions, relative to the largest closure rate.
-constexpr double reserve_of_share = 10;
+constexpr double reserve_of_fraction = 10;
 // Integral time in units of the servo's own time: the stress does not oscillate then.
 constexpr double times_of_servo = 4;
-// A bar that is led at mid-span swings in two halves, each like one that is clamped there: 6.2 times as fast
-// as the whole on its supports, 15.4 / (pi / 2)^2 of slender beams.
-constexpr double swings_of_halves = 6;
+// If the displacement at mid-span is prescribed, a bar oscillates in two halves, each like a bar that is
+// clamped there: 6.2 times as fast as the full bar on its supports, 15.4 / (pi / 2)^2 of slender beams.
+constexpr double frequency_ratio_of_halves = 6;
 
 // Makes a program from a list of stages: groups of sides become platens by their indices.
 class ProgramMaker {
@@ -64,32 +64,33 @@ private:
   }
 
   // The lateral platens of a box are two pairs.
-  std::vector<SideAsk> asks_of(const StageSettings &stage) const {
-    std::vector<SideAsk> all;
-    for (const SideAsk &ask : stage.asks) {
-      if (ask.side != SideGroup::lateral || lateral_) {
-        all.push_back(ask);
+  std::vector<SideControl> controls_of(const StageSettings &stage) const {
+    std::vector<SideControl> all;
+    for (const SideControl &control : stage.controls) {
+      if (control.side != SideGroup::lateral || lateral_) {
+        all.push_back(control);
         continue;
       }
       for (const SideGroup pair : {SideGroup::lateral_x, SideGroup::lateral_y})
-        if (!platens(pair).places.empty()) all.push_back(ask), all.back().side = pair;
+        if (!platens(pair).places.empty()) all.push_back(control), all.back().side = pair;
     }
     return all;
   }
 
   // Whether the same stress is prescribed on all sides.
   bool is_all_round(const StageSettings &stage) const {
-    const std::vector<SideAsk> asks = asks_of(stage);
+    const std::vector<SideControl> controls = controls_of(stage);
     std::array<bool, 3> axes{};
-    for (const SideAsk &ask : asks) {
-      if ((ask.ask != Ask::stress && ask.ask != Ask::pressure) || ask.value != asks.front().value)
+    for (const SideControl &control : controls) {
+      if ((control.mode != Mode::stress && control.mode != Mode::pressure) ||
+          control.value != controls.front().value)
         return false;
-      if (lateral_ && ask.side == SideGroup::lateral)
+      if (lateral_ && control.side == SideGroup::lateral)
         axes[0] = axes[1] = true;
       else
-        axes[static_cast<std::size_t>(platens(ask.side).axis)] = true;
+        axes[static_cast<std::size_t>(platens(control.side).axis)] = true;
     }
-    return !asks.empty() && axes[0] && axes[1] && axes[2];
+    return !controls.empty() && axes[0] && axes[1] && axes[2];
   }
 
   std::shared_ptr<Drive> drive(const PlatensOfAxis &platens) {
@@ -100,97 +101,102 @@ private:
     return drives_.back();
   }
 
-  bool asks_stress(const StageSettings &stage) const {
-    return std::any_of(stage.asks.begin(), stage.asks.end(), [](const SideAsk &ask) {
-      return ask.ask == Ask::stress || ask.ask == Ask::share || ask.ask == Ask::pressure ||
-             ask.ask == Ask::free;
+  bool prescribes_stress(const StageSettings &stage) const {
+    return std::any_of(stage.controls.begin(), stage.controls.end(), [](const SideControl &control) {
+      return control.mode == Mode::stress || control.mode == Mode::fraction ||
+             control.mode == Mode::pressure || control.mode == Mode::free;
     });
   }
   double ramp_of(const StageSettings &stage) const {
     if (stage.ramp > 0) return stage.ramp;
-    return asks_stress(stage) ? test_.ramp_of_stress() : test_.ramp();
+    return prescribes_stress(stage) ? test_.ramp_of_stress() : test_.ramp();
   }
 
-  Servo::Parameters servo(const SideAsk &ask, const PlatensOfAxis &platens, double ramp) const {
-    if (ask.servo) return *ask.servo;
-    const bool follows = ask.ask == Ask::share || ask.ask == Ask::free;
+  Servo::Parameters servo(const SideControl &control, const PlatensOfAxis &platens, double ramp) const {
+    if (control.servo) return *control.servo;
+    const bool follows = control.mode == Mode::fraction || control.mode == Mode::free;
     double stress = 0, rate = test_.axial_rate(); // largest prescribed values, Pa, m/s
     for (const StageSettings &stage : settings_)
-      for (const SideAsk &one : stage.asks) {
-        if (one.ask == Ask::stress || one.ask == Ask::pressure) stress = std::max(stress, one.value);
-        if (one.ask == Ask::rate) rate = std::max(rate, std::abs(rate_of(one)));
+      for (const SideControl &one : stage.controls) {
+        if (one.mode == Mode::stress || one.mode == Mode::pressure) stress = std::max(stress, one.value);
+        if (one.mode == Mode::rate) rate = std::max(rate, std::abs(rate_of(one)));
       }
     return test_.servo_for(stress, platens.axis, ramp,
-                           follows ? reserve_of_share * rate : test_.axial_rate());
+                           follows ? reserve_of_fraction * rate : test_.axial_rate());
   }
 
-  std::unique_ptr<Task> stress_task(const SideAsk &ask, double ramp, bool consolidates) const {
+  std::unique_ptr<Task> stress_task(const SideControl &control, double ramp, bool consolidates) const {
     StressTask::Parameters p;
-    p.platens = platens(ask.side);
-    p.side = words_of(ask.side);
-    p.value = ask.ask == Ask::free ? 0 : ask.value;
+    p.platens = platens(control.side);
+    p.side = words_of(control.side);
+    p.value = control.mode == Mode::free ? 0 : control.value;
     p.ramp = ramp;
     p.ramp_to_rest = test_.ramp();
-    p.lead = std::isnan(ask.lead) ? test_.lead_of_servo(p.platens) : ask.lead;
-    if (std::isnan(ask.lead)) p.compliance = test_.machine_compliance(p.platens);
-    p.servo = servo(ask, p.platens, ramp);
-    if (!consolidates && !ask.servo && ask.ask != Ask::share)
+    p.lead = std::isnan(control.lead) ? test_.lead_of_servo(p.platens) : control.lead;
+    if (std::isnan(control.lead)) p.compliance = test_.machine_compliance(p.platens);
+    p.servo = servo(control, p.platens, ramp);
+    if (!consolidates && !control.servo && control.mode != Mode::fraction)
       p.integral_time = times_of_servo * test_.time_of_servo(p.platens);
-    if (ask.ask == Ask::share) p.quantity = words_of_share(ask), p.followed = platens(ask.of), p.lag = lag();
+    if (control.mode == Mode::fraction)
+      p.quantity = words_of_fraction(control), p.followed = platens(control.of), p.lag = lag();
     if (p.platens.places.size() == 1) {
       p.settled_by = {test_.platens_along(p.platens.axis)};
     }
     return std::make_unique<StressTask>(p);
   }
 
-  static std::string words_of_share(const SideAsk &ask) { return "share of " + words_of(ask.of); }
+  static std::string words_of_fraction(const SideControl &control) {
+    return "share of " + words_of(control.of);
+  }
 
-  double lag() const { return lag_of_share * test_.facts().wave_transit; }
+  double lag() const { return lag_of_fraction * test_.facts().wave_transit; }
 
-  std::unique_ptr<Task> pressure_task(const SideAsk &ask, double ramp) const {
-    if (ask.ask == Ask::hold) return std::make_unique<HoldPressureTask>(*lateral_);
+  std::unique_ptr<Task> pressure_task(const SideControl &control, double ramp) const {
+    if (control.mode == Mode::hold) return std::make_unique<HoldPressureTask>(*lateral_);
     PressureTask::Parameters p;
     p.place = *lateral_;
-    p.value = ask.ask == Ask::free ? 0 : ask.value;
+    p.value = control.mode == Mode::free ? 0 : control.value;
     p.ramp = ramp;
-    p.path = ask.path;
-    if (ask.ask == Ask::share) p.quantity = words_of_share(ask), p.followed = platens(ask.of);
+    p.path = control.path;
+    if (control.mode == Mode::fraction)
+      p.quantity = words_of_fraction(control), p.followed = platens(control.of);
     if (p.path != 0) p.quantity = "stress path";
     if (p.path != 0 || p.followed) p.lag = lag();
     if (p.path != 0) p.lag = std::max(1.0, p.path) * lag_of_path * test_.facts().wave_transit;
     return std::make_unique<PressureTask>(p);
   }
 
-  double rate_of(const SideAsk &ask) const {
-    return (ask.back ? -1 : 1) * (std::isnan(ask.value) ? test_.axial_rate() : ask.value);
+  double rate_of(const SideControl &control) const {
+    return (control.back ? -1 : 1) * (std::isnan(control.value) ? test_.axial_rate() : control.value);
   }
 
-  std::unique_ptr<Task> task(const SideAsk &ask, double ramp, bool consolidates) {
-    if (lateral_ && ask.side == SideGroup::lateral) return pressure_task(ask, ramp);
-    const PlatensOfAxis of = platens(ask.side);
-    switch (ask.ask) {
-      case Ask::rate:
-        return std::make_unique<RateTask>(drive(of), rate_of(ask), ramp, words_of(ask.side));
-      case Ask::hold:
+  std::unique_ptr<Task> task(const SideControl &control, double ramp, bool consolidates) {
+    if (lateral_ && control.side == SideGroup::lateral) return pressure_task(control, ramp);
+    const PlatensOfAxis of = platens(control.side);
+    switch (control.mode) {
+      case Mode::rate:
+        return std::make_unique<RateTask>(drive(of), rate_of(control), ramp, words_of(control.side));
+      case Mode::hold:
         return std::make_unique<HoldTask>(of, test_.ramp());
-      case Ask::circumferential:
-      case Ask::mouth_opening:
-        return widening_task(ask, of, ramp);
+      case Mode::circumferential:
+      case Mode::mouth_opening:
+        return widening_task(control, of, ramp);
       default:
-        return stress_task(ask, ramp, consolidates);
+        return stress_task(control, ramp, consolidates);
     }
   }
 
-  std::unique_ptr<Task> widening_task(const SideAsk &ask, const PlatensOfAxis &of, double ramp) const {
+  std::unique_ptr<Task> widening_task(const SideControl &control, const PlatensOfAxis &of,
+                                      double ramp) const {
     WideningTask::Parameters p;
     p.platens = of;
-    p.rate = ask.value;
+    p.rate = control.value;
     p.ramp = ramp;
     p.transit = test_.facts().wave_transit;
     p.fastest = test_.axial_rate();
-    p.of = *widening_of(ask.ask);
+    p.of = *widening_of(control.mode);
     if (p.of == Widening::mouth) {
-      p.transit = test_.bending_period() / swings_of_halves;
+      p.transit = test_.bending_period() / frequency_ratio_of_halves;
       // Of a broken bar, whose halves turn by phi about its upper face: phi L / 2 over 2 phi d.
       p.closure = test_.three_points().span / (4 * test_.three_points().depth);
     }
@@ -198,19 +204,20 @@ private:
   }
 
   // Sides without a prescribed value hold.
-  void add_holds(const std::vector<SideAsk> &asks, std::vector<std::unique_ptr<Task>> &tasks) const {
-    const auto asked = [&](Side side) {
-      return std::any_of(asks.begin(), asks.end(), [&](const SideAsk &ask) {
-        const std::vector<Side> sides = sides_of(ask.side);
-        return (ask.side != SideGroup::lateral || !lateral_) &&
+  void add_holds(const std::vector<SideControl> &controls, std::vector<std::unique_ptr<Task>> &tasks) const {
+    const auto is_prescribed = [&](Side side) {
+      return std::any_of(controls.begin(), controls.end(), [&](const SideControl &control) {
+        const std::vector<Side> sides = sides_of(control.side);
+        return (control.side != SideGroup::lateral || !lateral_) &&
                std::count(sides.begin(), sides.end(), side) > 0;
       });
     };
     for (const Side side : all_sides)
-      if (test_.platen(side) != nullptr && !asked(side))
+      if (test_.platen(side) != nullptr && !is_prescribed(side))
         tasks.push_back(std::make_unique<HoldTask>(test_.platens_of(side), test_.ramp()));
-    const bool pressed = std::any_of(asks.begin(), asks.end(),
-                                     [](const SideAsk &ask) { return ask.side == SideGroup::lateral; });
+    const bool pressed = std::any_of(controls.begin(), controls.end(), [](const SideControl &control) {
+      return control.side == SideGroup::lateral;
+    });
     if (lateral_ && !pressed) tasks.push_back(std::make_unique<HoldPressureTask>(*lateral_));
   }
 
@@ -230,8 +237,9 @@ private:
 
   // A strain falls where its axis is unloaded.
   double direction(const StageSettings &stage, SideGroup of) const {
-    for (const SideAsk &ask : stage.asks)
-      if (ask.ask == Ask::rate && platens(ask.side).axis == platens(of).axis && rate_of(ask) * sense_ < 0)
+    for (const SideControl &control : stage.controls)
+      if (control.mode == Mode::rate && platens(control.side).axis == platens(of).axis &&
+          rate_of(control) * sense_ < 0)
         return -1;
     return 1;
   }
@@ -242,20 +250,21 @@ private:
     for (const StageUntil &end : stage.until) {
       if (end.what == Reached::time) return end.value;
       const bool strain = end.what == Reached::strain || end.what == Reached::strain_change;
-      for (const SideAsk &ask : stage.asks)
-        if (strain && ask.ask == Ask::rate && platens(ask.side).axis == platens(end.of).axis &&
+      for (const SideControl &control : stage.controls)
+        if (strain && control.mode == Mode::rate && platens(control.side).axis == platens(end.of).axis &&
             direction(stage, end.of) > 0) {
           const double before = strain_before(stage, end);
-          const double way = (end.value - before) * platens(end.of).length;
+          const double displacement = (end.value - before) * platens(end.of).length;
           const bool from_rest = before <= test_.settings().loading.start_strain;
-          seconds = std::max(seconds, (from_rest ? 0.5 * ramp : 0.0) + way / std::abs(rate_of(ask)));
+          seconds =
+              std::max(seconds, (from_rest ? 0.5 * ramp : 0.0) + displacement / std::abs(rate_of(control)));
         }
     }
-    for (const SideAsk &ask : stage.asks) // the platens go as far as the specimen widens, with the usual nu
+    for (const SideControl &control : stage.controls) // the platens move as far as the specimen widens
       for (const StageUntil &end : stage.until)
-        if (const auto of = widening_of(ask.ask); of && of == widening_of(end.what))
-          seconds = 0.5 * ramp + end.value / ask.value;
-    return seconds > 0 || !asks_stress(stage) ? seconds : ramp + stage.hold;
+        if (const auto of = widening_of(control.mode); of && of == widening_of(end.what))
+          seconds = 0.5 * ramp + end.value / control.value;
+    return seconds > 0 || !prescribes_stress(stage) ? seconds : ramp + stage.hold;
   }
 
   // The closure strain reached by the stages before, for a strain that counts from the start.
@@ -271,23 +280,24 @@ private:
     return most;
   }
 
-  bool is_loaded(const SideAsk &ask) const {
-    return !(lateral_ && ask.side == SideGroup::lateral) && platens(ask.side).axis == axis_;
+  bool is_loaded(const SideControl &control) const {
+    return !(lateral_ && control.side == SideGroup::lateral) && platens(control.side).axis == axis_;
   }
 
   // Prescribed values on sides that the test does not load are the previous ones, or new ones. A fraction
   // from the start grows with the stress that it follows, which is not a change of its own.
-  void add_sides(const std::vector<SideAsk> &asks, LoadingStage::Parameters &of) {
+  void add_sides(const std::vector<SideControl> &controls, LoadingStage::Parameters &of) {
     bool changed = false;
-    for (const SideAsk &ask : asks) {
-      if (is_loaded(ask) || ask.ask == Ask::hold) continue;
-      for (const Side side : sides_of(ask.side)) {
-        SideAsk &last = of_sides_[static_cast<std::size_t>(side)];
-        const bool same = last.ask == ask.ask && last.of == ask.of &&
-                          (last.value == ask.value || (std::isnan(last.value) && std::isnan(ask.value)));
+    for (const SideControl &control : controls) {
+      if (is_loaded(control) || control.mode == Mode::hold) continue;
+      for (const Side side : sides_of(control.side)) {
+        SideControl &last = of_sides_[static_cast<std::size_t>(side)];
+        const bool same =
+            last.mode == control.mode && last.of == control.of &&
+            (last.value == control.value || (std::isnan(last.value) && std::isnan(control.value)));
         changed = changed || !same;
-        of.changes_sides = of.changes_sides || (!same && !(ask.ask == Ask::share && setting_ == 0));
-        last = ask;
+        of.changes_sides = of.changes_sides || (!same && !(control.mode == Mode::fraction && setting_ == 0));
+        last = control;
       }
     }
     if (changed) ++setting_;
@@ -296,26 +306,26 @@ private:
 
   std::unique_ptr<Stage> made(const StageSettings &stage, bool consolidates) {
     const double ramp = ramp_of(stage);
-    const std::vector<SideAsk> asks = asks_of(stage);
+    const std::vector<SideControl> controls = controls_of(stage);
     LoadingStage::Parameters parameters{stage.name, consolidates, expected_seconds(stage, ramp), sense_};
-    add_sides(asks, parameters);
+    add_sides(controls, parameters);
     std::vector<std::unique_ptr<Task>> tasks;
-    for (const SideAsk &ask : asks) {
-      if (is_loaded(ask) && ask.ask != Ask::hold) parameters.loading.push_back(tasks.size());
-      parameters.parts = parameters.parts || (ask.ask == Ask::rate && rate_of(ask) * sense_ < 0);
-      tasks.push_back(task(ask, ramp, consolidates));
+    for (const SideControl &control : controls) {
+      if (is_loaded(control) && control.mode != Mode::hold) parameters.loading.push_back(tasks.size());
+      parameters.parts = parameters.parts || (control.mode == Mode::rate && rate_of(control) * sense_ < 0);
+      tasks.push_back(task(control, ramp, consolidates));
     }
-    add_holds(asks, tasks);
+    add_holds(controls, tasks);
     return std::make_unique<LoadingStage>(std::move(parameters), std::move(tasks), end_of(stage, ramp));
   }
 
   const PlatenTest &test_;
   const std::vector<StageSettings> &settings_;
   std::optional<std::size_t> lateral_;
-  int axis_;                                   // the loaded axis
-  double sense_;                               // 1 in compression, -1 in tension
-  std::array<SideAsk, side_count> of_sides_{}; // last prescribed on each side that is not loaded
-  int setting_ = 0;                            // number of changes of these
+  int axis_;                                       // the loaded axis
+  double sense_;                                   // 1 in compression, -1 in tension
+  std::array<SideControl, side_count> of_sides_{}; // last prescribed on each side that is not loaded
+  int setting_ = 0;                                // number of changes of these
   std::vector<std::shared_ptr<Drive>> drives_;
 };
 
@@ -325,9 +335,9 @@ int loaded_axis(const PlatenTest &test) {
   constexpr int axial = 2;
   std::optional<int> first;
   for (const StageSettings &stage : test.settings().loading.stages)
-    for (const SideAsk &ask : stage.asks) {
-      if (ask.ask != Ask::rate && !widening_of(ask.ask)) continue;
-      for (const Side side : sides_of(ask.side)) {
+    for (const SideControl &control : stage.controls) {
+      if (control.mode != Mode::rate && !widening_of(control.mode)) continue;
+      for (const Side side : sides_of(control.side)) {
         if (test.platen(side) == nullptr) continue;
         if (axis_of(side) == axial) return axial;
         if (!first) first = axis_of(side);

@@ -9,7 +9,7 @@
 
 namespace platen::coupling {
 
-using Ask = SideAsk::Ask;
+using Mode = SideControl::Mode;
 using Reached = Until::Reached;
 
 std::string name_of(SideGroup group) {
@@ -49,15 +49,15 @@ std::vector<Side> sides_of(SideGroup group) {
   }
 }
 
-std::optional<Widening> widening_of(Ask ask) {
-  if (ask == Ask::circumferential) return Widening::circumference;
-  if (ask == Ask::mouth_opening) return Widening::mouth;
+std::optional<Widening> widening_of(Mode mode) {
+  if (mode == Mode::circumferential) return Widening::circumference;
+  if (mode == Mode::mouth_opening) return Widening::mouth;
   return std::nullopt;
 }
 
 bool needs(const StageSettings &stage, Widening of) {
-  return std::any_of(stage.asks.begin(), stage.asks.end(),
-                     [&](const SideAsk &ask) { return widening_of(ask.ask) == of; }) ||
+  return std::any_of(stage.controls.begin(), stage.controls.end(),
+                     [&](const SideControl &control) { return widening_of(control.mode) == of; }) ||
          std::any_of(stage.until.begin(), stage.until.end(),
                      [&](const StageUntil &end) { return widening_of(end.what) == of; });
 }
@@ -74,19 +74,19 @@ public:
   StageCheck(const StageSettings &stage, std::size_t number, const StageScope &scope)
       : stage_(stage), member_("loading.stage_" + std::to_string(number) + "."), scope_(scope) {}
 
-  void asks() const {
+  void controls() const {
     if (!scope_.bonded)
       fail("until",
            "ends a stage of a specimen without bonds: a wave over them sets how fast it follows. Allowed: "
            "bonds.");
-    if (stage_.asks.empty())
+    if (stage_.controls.empty())
       fail("until", "ends a stage that asks nothing. Allowed: a side that is asked something.");
-    for (std::size_t k = 0; k < stage_.asks.size(); ++k) {
-      one(stage_.asks[k]);
+    for (std::size_t k = 0; k < stage_.controls.size(); ++k) {
+      one(stage_.controls[k]);
       for (std::size_t other = 0; other < k; ++other)
-        if (overlap(stage_.asks[k].side, stage_.asks[other].side))
-          fail(stage_.asks[k], "asks what `" + member_ + name_of(stage_.asks[other].side) +
-                                   "` asks too. Allowed: each side once.");
+        if (overlap(stage_.controls[k].side, stage_.controls[other].side))
+          fail(stage_.controls[k], "asks what `" + member_ + name_of(stage_.controls[other].side) +
+                                       "` asks too. Allowed: each side once.");
     }
   }
 
@@ -103,8 +103,8 @@ private:
   [[noreturn]] void fail(const std::string &key, const std::string &reason) const {
     throw BadSetup(member_ + key, reason);
   }
-  [[noreturn]] void fail(const SideAsk &ask, const std::string &reason) const {
-    fail(name_of(ask.side), reason);
+  [[noreturn]] void fail(const SideControl &control, const std::string &reason) const {
+    fail(name_of(control.side), reason);
   }
 
   bool has_platen(SideGroup group) const {
@@ -115,59 +115,61 @@ private:
   }
   bool is_cell(SideGroup group) const { return group == SideGroup::lateral && scope_.cell; }
 
-  void one(const SideAsk &ask) const {
-    const bool pressed = is_cell(ask.side);
-    if (!pressed && !has_platen(ask.side))
-      fail(ask, "asks a side that nothing presses. Allowed: sides with a platen, and lateral in a cell.");
-    if (ask.ask == Ask::pressure && !pressed)
-      fail(ask, "asks a pressure of platens. Allowed: stress, or lateral in a cell.");
-    if (pressed && (ask.ask == Ask::rate || ask.ask == Ask::stress || widening_of(ask.ask)))
-      fail(ask, "asks what a cell cannot. Allowed: pressure, share of a side, hold, free.");
-    if ((ask.ask == Ask::stress || ask.ask == Ask::pressure) && !(ask.value >= 0))
-      fail(ask, "pulls. Allowed: 0 and more, compression.");
-    const bool by_loading = (ask.ask == Ask::rate && std::isnan(ask.value)) || widening_of(ask.ask);
+  void one(const SideControl &control) const {
+    const bool pressed = is_cell(control.side);
+    if (!pressed && !has_platen(control.side))
+      fail(control, "asks a side that nothing presses. Allowed: sides with a platen, and lateral in a cell.");
+    if (control.mode == Mode::pressure && !pressed)
+      fail(control, "asks a pressure of platens. Allowed: stress, or lateral in a cell.");
+    if (pressed && (control.mode == Mode::rate || control.mode == Mode::stress || widening_of(control.mode)))
+      fail(control, "asks what a cell cannot. Allowed: pressure, share of a side, hold, free.");
+    if ((control.mode == Mode::stress || control.mode == Mode::pressure) && !(control.value >= 0))
+      fail(control, "pulls. Allowed: 0 and more, compression.");
+    const bool by_loading =
+        (control.mode == Mode::rate && std::isnan(control.value)) || widening_of(control.mode);
     if (by_loading && !scope_.rate)
-      fail(ask, "names no rate, nor does the loading. Allowed: a speed, or a `loading.rate`.");
-    if (ask.ask == Ask::rate && ask.value == 0) fail(ask, "goes nowhere. Allowed: hold.");
-    if (ask.ask == Ask::share) share(ask);
-    if (scope_.bent) bent(ask);
-    if (const auto of = widening_of(ask.ask)) widening(ask, *of);
+      fail(control, "names no rate, nor does the loading. Allowed: a speed, or a `loading.rate`.");
+    if (control.mode == Mode::rate && control.value == 0) fail(control, "goes nowhere. Allowed: hold.");
+    if (control.mode == Mode::fraction) fraction(control);
+    if (scope_.bent) bent(control);
+    if (const auto of = widening_of(control.mode)) widening(control, *of);
   }
 
   // Servos are tuned to a specimen that is pressed along its length; a bar that is bent is far softer.
-  void bent(const SideAsk &ask) const {
-    if (ask.ask != Ask::rate && ask.ask != Ask::hold && ask.ask != Ask::mouth_opening)
-      fail(ask, "does not go with three point bending. Allowed: rate, unload, hold, cmod rate.");
+  void bent(const SideControl &control) const {
+    if (control.mode != Mode::rate && control.mode != Mode::hold && control.mode != Mode::mouth_opening)
+      fail(control, "does not go with three point bending. Allowed: rate, unload, hold, cmod rate.");
   }
 
-  void widening(const SideAsk &ask, Widening of) const {
-    if (ask.side != SideGroup::axial)
-      fail(ask, std::string("is led by the ") +
-                    (of == Widening::mouth ? "opening of a notch" : "circumferential strain") +
-                    ". Allowed: axial alone is.");
-    if (!(ask.value > 0)) fail(ask, "does not let the specimen widen. Allowed: above 0.");
-    if (of == Widening::mouth && !scope_.notched) fail(ask, no_notch);
+  void widening(const SideControl &control, Widening of) const {
+    if (control.side != SideGroup::axial)
+      fail(control, std::string("is led by the ") +
+                        (of == Widening::mouth ? "opening of a notch" : "circumferential strain") +
+                        ". Allowed: axial alone is.");
+    if (!(control.value > 0)) fail(control, "does not let the specimen widen. Allowed: above 0.");
+    if (of == Widening::mouth && !scope_.notched) fail(control, no_notch);
   }
 
-  void share(const SideAsk &ask) const {
-    if (!(ask.value > 0)) fail(ask, "is no share. Allowed: above 0.");
-    if (overlap(ask.side, ask.of)) fail(ask, "is a share of its own stress. Allowed: of another side.");
-    if (ask.of == SideGroup::lateral || !has_platen(ask.of))
-      fail(ask, "follows a side without a platen. Allowed: a side, or two opposite ones, with a platen.");
-    for (const SideAsk &other : stage_.asks)
-      if (other.ask == Ask::share && overlap(other.side, ask.of) && overlap(other.of, ask.side))
-        fail(ask, "follows a side that follows it. Allowed: one of both is asked something else.");
+  void fraction(const SideControl &control) const {
+    if (!(control.value > 0)) fail(control, "is no share. Allowed: above 0.");
+    if (overlap(control.side, control.of))
+      fail(control, "is a share of its own stress. Allowed: of another side.");
+    if (control.of == SideGroup::lateral || !has_platen(control.of))
+      fail(control, "follows a side without a platen. Allowed: a side, or two opposite ones, with a platen.");
+    for (const SideControl &other : stage_.controls)
+      if (other.mode == Mode::fraction && overlap(other.side, control.of) && overlap(other.of, control.side))
+        fail(control, "follows a side that follows it. Allowed: one of both is asked something else.");
   }
 
-  bool asks_any(std::initializer_list<Ask> kinds) const {
-    return std::any_of(stage_.asks.begin(), stage_.asks.end(), [&](const SideAsk &ask) {
-      return std::count(kinds.begin(), kinds.end(), ask.ask) > 0;
+  bool prescribes_any(std::initializer_list<Mode> modes) const {
+    return std::any_of(stage_.controls.begin(), stage_.controls.end(), [&](const SideControl &control) {
+      return std::count(modes.begin(), modes.end(), control.mode) > 0;
     });
   }
 
   void one(const StageUntil &end) const {
     if (end.what == Reached::settled) {
-      if (!asks_any({Ask::stress, Ask::share, Ask::pressure, Ask::free}))
+      if (!prescribes_any({Mode::stress, Mode::fraction, Mode::pressure, Mode::free}))
         fail("until",
              "waits for a stress that no side is asked. Allowed: settled with a stress, a share or a "
              "pressure.");
@@ -181,23 +183,23 @@ private:
       fail("until", "looks at a circumference, and a bar is bent. Allowed: cmod, of a notched bar.");
     if (end.what == Reached::time && !(end.value > 0))
       fail("until", "ends at once. Allowed: a time above 0 s.");
-    const bool share = end.what == Reached::share_of_peak || end.what == Reached::share_of_start;
-    if (share && end.value >= 1) fail("until", "never falls. Allowed: a share below 1.");
-    const bool of_side = share || end.what == Reached::stress || end.what == Reached::strain ||
+    const bool fraction = end.what == Reached::fraction_of_peak || end.what == Reached::fraction_of_start;
+    if (fraction && end.value >= 1) fail("until", "never falls. Allowed: a share below 1.");
+    const bool of_side = fraction || end.what == Reached::stress || end.what == Reached::strain ||
                          end.what == Reached::strain_change;
     if (of_side && (end.of == SideGroup::lateral || !has_platen(end.of)))
       fail("until",
            "looks at a side without a platen. Allowed: a side, or two opposite ones, with a platen.");
-    if (end.what == Reached::stress && held_below(end))
+    if (end.what == Reached::stress && controlled_below(end))
       fail("until",
            "waits for a stress that its side is not led to. Allowed: up to what is asked of it, or "
            "settled.");
   }
 
-  // The side's servo is controlled to a stress below the one that ends the stage.
-  bool held_below(const StageUntil &end) const {
-    return std::any_of(stage_.asks.begin(), stage_.asks.end(), [&](const SideAsk &ask) {
-      return ask.side == end.of && ask.ask == Ask::stress && end.value > ask.value;
+  // Whether the servo of the side has a target below the stress that ends the stage.
+  bool controlled_below(const StageUntil &end) const {
+    return std::any_of(stage_.controls.begin(), stage_.controls.end(), [&](const SideControl &control) {
+      return control.side == end.of && control.mode == Mode::stress && end.value > control.value;
     });
   }
 
@@ -214,7 +216,7 @@ private:
 void require_stages(const std::vector<StageSettings> &stages, const StageScope &scope) {
   for (std::size_t k = 0; k < stages.size(); ++k) {
     const StageCheck check(stages[k], k + 1, scope);
-    check.asks();
+    check.controls();
     check.until();
   }
 }

@@ -27,11 +27,11 @@ inline constexpr std::array<SideGroup, 10> all_side_groups{
 std::vector<Side> sides_of(SideGroup group);
 
 // What is prescribed on one side. Compression positive.
-struct SideAsk {
-  enum class Ask {
-    rate,            // m/s, closure of all its platens together, shared by them; negative: they open
+struct SideControl {
+  enum class Mode {
+    rate,            // m/s, closure of all its platens together; negative: they open
     stress,          // Pa, by a servo
-    share,           // fraction of the stress of `of`
+    fraction,        // of the stress of `of`
     pressure,        // Pa, of a cell
     hold,            // platens stand still; a pressure stays constant
     free,            // no stress
@@ -39,7 +39,7 @@ struct SideAsk {
     mouth_opening,   // m/s, of the mouth of a notch, likewise
   };
   SideGroup side = SideGroup::axial;
-  Ask ask = Ask::hold;
+  Mode mode = Mode::hold;
   double value = not_given;        // a rate that is not given is that of the loading
   bool back = false;               // of a rate: platens open at it
   SideGroup of = SideGroup::axial; // of a fraction
@@ -57,16 +57,16 @@ struct StageUntil {
 
 struct StageSettings {
   std::string name;
-  std::vector<SideAsk> asks;     // sides that are not named hold
-  double ramp = 0;               // s, from the values at the start to the prescribed ones; 0: chosen
-  double hold = 0;               // s, duration after the ramp before the stage counts as settled
-  std::vector<StageUntil> until; // the first that is met; none: never
+  std::vector<SideControl> controls; // sides without one hold
+  double ramp = 0;                   // s, from the values at the start to the prescribed ones; 0: chosen
+  double hold = 0;                   // s, duration after the ramp before the stage counts as settled
+  std::vector<StageUntil> until;     // the first that is met; none: never
   // s, at which the stage ends although it has not settled; not given: twice ramp and hold.
   double latest = not_given;
 };
 
-// By which widening the axial platens are controlled; none where they are asked something else.
-std::optional<Widening> widening_of(SideAsk::Ask ask);
+// By which widening the axial platens are controlled; none where something else is prescribed.
+std::optional<Widening> widening_of(SideControl::Mode mode);
 // Whether the stage is controlled or ended by it.
 bool needs(const StageSettings &stage, Widening of);
 

@@ -6,12 +6,12 @@
 namespace platen::coupling {
 namespace {
 
-using Ask = SideAsk::Ask;
+using Mode = SideControl::Mode;
 using Reached = Until::Reached;
 
-SideAsk asked(SideGroup side, Ask ask, double value) {
-  SideAsk one;
-  one.side = side, one.ask = ask, one.value = value;
+SideControl side_control(SideGroup side, Mode mode, double value) {
+  SideControl one;
+  one.side = side, one.mode = mode, one.value = value;
   return one;
 }
 
@@ -20,22 +20,22 @@ StageSettings consolidation(const PlatenTest &test) {
   const double pressure = loading.cell->pressure;
   StageSettings stage;
   stage.name = "consolidation";
-  stage.asks = {asked(SideGroup::lateral, Ask::pressure, pressure),
-                asked(SideGroup::top, Ask::stress, pressure)};
+  stage.controls = {side_control(SideGroup::lateral, Mode::pressure, pressure),
+                    side_control(SideGroup::top, Mode::stress, pressure)};
   stage.ramp = test.cell_ramp();
   stage.hold = loading.hold;
   stage.until = {{Reached::settled}};
   return stage;
 }
 
-StageSettings held_stress(const PlatenTest &test) {
+StageSettings constant_stress(const PlatenTest &test) {
   const LoadingSettings &loading = test.settings().loading;
   StageSettings stage;
   stage.name = "stress";
-  SideAsk ask = asked(SideGroup::top, Ask::stress, loading.top_stress);
-  ask.servo = test.servo_of_top();
-  ask.lead = 0;
-  stage.asks = {ask};
+  SideControl control = side_control(SideGroup::top, Mode::stress, loading.top_stress);
+  control.servo = test.servo_of_top();
+  control.lead = 0;
+  stage.controls = {control};
   stage.ramp = test.ramp();
   stage.hold = loading.hold;
   stage.until = {{Reached::time, stage.ramp + stage.hold}};
@@ -51,11 +51,11 @@ std::vector<StageSettings> axial_stages(const PlatenTest &test) {
   stage.name = loading.tension ? "tension" : "compression";
   stage.ramp = test.ramp();
   const double rate = (loading.tension ? -1 : 1) * loading.rate;
-  if (rate != 0) stage.asks = {asked(SideGroup::axial, Ask::rate, rate)};
+  if (rate != 0) stage.controls = {side_control(SideGroup::axial, Mode::rate, rate)};
   if (loading.cell) {
-    SideAsk ask = asked(SideGroup::lateral, Ask::pressure, loading.cell->pressure);
-    ask.path = loading.cell->path;
-    stage.asks.push_back(ask);
+    SideControl control = side_control(SideGroup::lateral, Mode::pressure, loading.cell->pressure);
+    control.path = loading.cell->path;
+    stage.controls.push_back(control);
   }
   std::vector<StageSettings> all;
   for (const double turn : loading.unload_at) {
@@ -63,8 +63,8 @@ std::vector<StageSettings> axial_stages(const PlatenTest &test) {
     all.back().until = {{Reached::strain, turn, SideGroup::axial}};
     all.push_back(stage);
     all.back().name = "unloading";
-    if (rate != 0) all.back().asks.front().value = -rate;
-    all.back().until = {{Reached::share_of_start, loading.unload_to, SideGroup::axial}};
+    if (rate != 0) all.back().controls.front().value = -rate;
+    all.back().until = {{Reached::fraction_of_start, loading.unload_to, SideGroup::axial}};
   }
   if (std::isfinite(loading.target_strain))
     stage.until = {{Reached::strain, loading.target_strain, SideGroup::axial}};
@@ -80,7 +80,7 @@ std::vector<StageSettings> stages_of_members(const PlatenTest &test) {
   if (loading.cell) stages.push_back(consolidation(test));
   if (loading.cell && loading.cell->alone) return stages;
   if (loading.servo) {
-    stages.push_back(held_stress(test));
+    stages.push_back(constant_stress(test));
     return stages;
   }
   const std::vector<StageSettings> axial = axial_stages(test);

@@ -28,7 +28,7 @@ Contacts contacts_of(PlatenTest &test, double strain) {
   const double displacement = 0.5 * strain * test.shape().height;
   for (const bool top : {false, true}) {
     if (top) c.first_of_top = c.near.size();
-    for (dem::GroundSpring &s : (top ? test.top() : test.bottom()).whole_springs(test.model.particles))
+    for (dem::GroundSpring &s : (top ? test.top() : test.bottom()).total_springs(test.model.particles))
       if (s.gap <= displacement) c.near.push_back({s, {0, 0, top ? -displacement : displacement}});
   }
   c.pressed.assign(c.near.size(), true);

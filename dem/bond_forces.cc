@@ -155,7 +155,8 @@ double dashpot_power(const Particles &p, const Bonds &b, int row) {
 } // namespace
 
 ExactSum compute_bond_forces(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity, double dt,
-                             std::vector<BondBreak> &breaks, const Loop &beside, const BlockList *listed) {
+                             std::vector<BondBreak> &breaks, const Loop &parallel_loop,
+                             const BlockList *listed) {
   const kernels::BondKernels &kernels = kernels_of(set, b.law);
   const kernels::BondColumns columns = columns_of(p, b);
   std::vector<kernels::BlockFindings> found(b.blocks.blocks());
@@ -164,7 +165,7 @@ ExactSum compute_bond_forces(Particles &p, Bonds &b, InstructionSet set, const V
       [&](std::size_t, std::size_t, std::size_t block) {
         found[block] = compute_block(p, b, kernels, columns, gravity, block);
       },
-      beside);
+      parallel_loop);
   // Rarely reached: the strength ratios decide.
   std::vector<double> tension, shear;
   for (std::size_t block = 0; block < found.size(); ++block) {
@@ -198,7 +199,7 @@ ExactSum undone_work_of_dashpots(const Particles &p, const Bonds &b, double dt,
 }
 
 ExactSum compute_cohesive_forces(Particles &p, Bonds &b, InstructionSet set, const Vector3 &gravity,
-                                 double dt, std::vector<BondBreak> &breaks, const Loop &beside,
+                                 double dt, std::vector<BondBreak> &breaks, const Loop &parallel_loop,
                                  const BlockList *listed) {
   const kernels::CohesiveKernel &kernel = cohesive_kernel_of(set);
   const kernels::CohesiveColumns columns = cohesive_columns_of(p, b);
@@ -211,7 +212,7 @@ ExactSum compute_cohesive_forces(Particles &p, Bonds &b, InstructionSet set, con
                                              b.blocks.first_pair[block + 1]);
         add_weight(p, rows, gravity);
       },
-      beside);
+      parallel_loop);
   for (std::size_t block = 0; block < found.size(); ++block) {
     if (!found[block].reached) continue;
     b.look_at_order(block);

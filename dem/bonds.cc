@@ -180,19 +180,19 @@ std::size_t Bonds::bytes() const {
   return size() * table.bytes_per_row() + records.size() * records.bytes_per_row() + blocks.bytes();
 }
 
-// Without broken rows: the time when they are dropped is not part of the state.
+// Broken rows are not stored, because the time when they are dropped is not part of the state.
 void Bonds::describe(Archive &archive) {
   archive.version(1);
   if (archive.writes() && broken_rows > 0) compact();
   archive.table("rows", table);
   archive.same_table("records", records);
-  if (const StateSource *from = archive.looks_at()) require_whole(*from, archive.path(""));
+  if (const StateSource *from = archive.looks_at()) require_consistent(*from, archive.path(""));
   if (archive.reads()) count_and_cut();
 }
 
 // Throws StateError if rows and records are not consistent: pairs must ascend, blocks of rows too, a row must
 // match its record, and each bond that is not broken must have a row.
-void Bonds::require_whole(const StateSource &from, const std::string &at) const {
+void Bonds::require_consistent(const StateSource &from, const std::string &at) const {
   const std::string rows = at + "rows/", of_records = at + "records/";
   const std::vector<int> i = rows_of<int>(from, rows + "first"), j = rows_of<int>(from, rows + "second"),
                          of = rows_of<int>(from, rows + "record"),
@@ -252,10 +252,10 @@ void Bonds::count_rows() {
 int Bonds::place(std::size_t k) const {
   const double damaged = damage(k);
   if (normal_stiffness[k] == 0.0 || damaged >= 1.0) return 2;
-  return damaged > 0 && damaged_rows_apart(law);
+  return damaged > 0 && damaged_rows_separate(law);
 }
 
-// Whether enough rows stand before one of a lower place: SIMD vectors would be of several kinds.
+// Whether enough rows stand before one of a lower place, so that SIMD vectors would contain several kinds.
 bool Bonds::in_disorder(std::size_t begin, std::size_t end) const {
   constexpr int enough = 8; // lanes of the widest SIMD vector
   int before[3] = {}, misplaced[3] = {};

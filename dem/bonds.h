@@ -87,8 +87,8 @@ struct Bonds {
   // Drops broken rows and rebuilds the blocks. Forces and sums stay the same to the last bit.
   void compact();
   // For laws that keep failed rows last: in every block where enough of them stand between others, moves
-  // failed rows behind the intact ones, and damaged ones between, if the law keeps those apart. This changes
-  // the order of the sums of a block.
+  // failed rows behind the intact ones, and damaged ones between, if the law keeps those separate. This
+  // changes the order of the sums of a block.
   void order_rows();
   // To call when rows of this block have failed or become damaged.
   void look_at_order(std::size_t block);
@@ -127,14 +127,14 @@ private:
   template <class F>
   auto with_memory(std::size_t row, const F &f) const;
   void add_history();
-  // Of a row in its block: 0 sound, 1 damaged and apart, 2 failed.
+  // Order of a row in its block: 0 intact, 1 damaged, if the law keeps such rows separate, 2 failed.
   int place(std::size_t row) const;
   bool in_disorder(std::size_t begin, std::size_t end) const;
   std::size_t particles_ = 0;
   bool rotation_ = false;
   std::vector<char> disorder_; // per block of particles; only for laws that keep failed rows last
   void cut_blocks();
-  void require_whole(const StateSource &from, const std::string &at) const;
+  void require_consistent(const StateSource &from, const std::string &at) const;
 };
 
 inline Triple<double> triple(const Vector3 &a) {
@@ -181,12 +181,12 @@ struct BrokenBond {
 
 // Sets force and torque of every particle to its weight plus the forces of bonds of its own block; forces of
 // bonds of other blocks stay in the ghosts until return_ghosts. On any number of threads. Rows at or above
-// their strength are appended to `breaks`, in row order; nothing is broken here. `beside` runs at the same
-// time. Dashpots act at the velocities of the last drift, which took dt. Returns the energy that they
+// their strength are appended to `breaks`, in row order; nothing is broken here. `parallel_loop` runs at the
+// same time. Dashpots act at the velocities of the last drift, which took dt. Returns the energy that they
 // dissipated in it, J, from the mean of their forces at its two ends (leapfrog). This and the following
 // functions process the listed blocks if a list is given, otherwise all blocks.
 ExactSum compute_bond_forces(Particles &particles, Bonds &bonds, InstructionSet set, const Vector3 &gravity,
-                             double dt, std::vector<BondBreak> &breaks, const Loop &beside = {},
+                             double dt, std::vector<BondBreak> &breaks, const Loop &parallel_loop = {},
                              const BlockList *listed = nullptr);
 // The same for one block, whose rows have just been broken.
 void compute_bond_forces_again(Particles &particles, Bonds &bonds, InstructionSet set, const Vector3 &gravity,
@@ -200,7 +200,7 @@ ExactSum undone_work_of_dashpots(const Particles &particles, const Bonds &bonds,
 // in this step are appended to `breaks`, in row order; they are not marked here, and their dashpots stop.
 ExactSum compute_cohesive_forces(Particles &particles, Bonds &bonds, InstructionSet set,
                                  const Vector3 &gravity, double dt, std::vector<BondBreak> &breaks,
-                                 const Loop &beside = {}, const BlockList *listed = nullptr);
+                                 const Loop &parallel_loop = {}, const BlockList *listed = nullptr);
 
 struct BondTotals {
   double energy = 0; // J

@@ -11,15 +11,15 @@
 namespace platen::dem {
 namespace {
 
-constexpr double share_of_body = 0.05;   // fraction of the spheres; smaller pieces are not loaded
-constexpr double move_of_areas = 0.05;   // mean radii
-constexpr double depth_of_spheres = 1.0; // mean radii, between a lateral sphere's surface and the wall
+constexpr double fraction_of_body = 0.05; // fraction of the spheres; smaller pieces are not loaded
+constexpr double move_of_areas = 0.05;    // mean radii
+constexpr double depth_of_spheres = 1.0;  // mean radii, between a lateral sphere's surface and the wall
 
 std::vector<char> body_of(const Particles &p, const Bonds *bonds) {
   std::vector<char> body(p.size(), 1);
   if (bonds == nullptr) return body;
   const Fragments pieces = find_fragments(p, bonds);
-  const double least = share_of_body * static_cast<double>(p.size());
+  const double least = fraction_of_body * static_cast<double>(p.size());
   for (std::size_t i = 0; i < p.size(); ++i)
     body[i] = pieces.particles[pieces.of_particle[i]] >= least;
   return body;
@@ -44,7 +44,7 @@ Confinement::Confinement(const Particles &p, const Bonds *bonds, const Shape &sh
   for (const double r : p.radius)
     mean_radius_ += r / static_cast<double>(std::max<std::size_t>(p.size(), 1));
   const std::vector<char> body = body_of(p, bonds);
-  whole_ = static_cast<std::size_t>(std::count(body.begin(), body.end(), 1));
+  intact_spheres_ = static_cast<std::size_t>(std::count(body.begin(), body.end(), 1));
   particle_.allow(row_of(p.size()));
   find(p, bonds, planes);
   const double found = coverage(p, planes);
@@ -54,7 +54,7 @@ Confinement::Confinement(const Particles &p, const Bonds *bonds, const Shape &sh
   factor_ = 1 / found;
   for (Vector3 &a : area_)
     a *= factor_;
-  whole_coverage_ = coverage(p, planes);
+  intact_coverage_ = coverage(p, planes);
 }
 
 // The part of an area vector along the outward normal of the shape's lateral surface there. At the edge of a
@@ -119,8 +119,9 @@ void Confinement::find(const Particles &p, const Bonds *bonds, const EndPlanes &
   broken_ = broken_bonds(bonds);
   // A specimen only loses spheres: an equal number means the same spheres.
   const double now = coverage(p, planes);
-  if (static_cast<std::size_t>(std::count(body.begin(), body.end(), 1)) == whole_) whole_coverage_ = now;
-  loaded_share_ = std::min(1.0, now / whole_coverage_);
+  if (static_cast<std::size_t>(std::count(body.begin(), body.end(), 1)) == intact_spheres_)
+    intact_coverage_ = now;
+  loaded_fraction_ = std::min(1.0, now / intact_coverage_);
 }
 
 // Sum of a.v, m^3/s: rate of the volume increase of the specimen.
@@ -153,8 +154,8 @@ void Confinement::describe(Archive &archive) {
   archive("work", work_, "J");
   archive("moved", moved_, "m", at_least(0));
   archive("broken_bonds", broken_, "1", at_least(0));
-  archive("whole_coverage", whole_coverage_, "1", 1.0);
-  archive("loaded_share", loaded_share_, "1", 1.0);
+  archive("whole_coverage", intact_coverage_, "1", 1.0);
+  archive("loaded_share", loaded_fraction_, "1", 1.0);
   archive.table("areas", table_);
 }
 

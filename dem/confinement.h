@@ -41,10 +41,10 @@ public:
 
   // Pa, acting now: the sum of the forces over the lateral area. Equal to the given pressure while the
   // specimen is intact.
-  double pressure() const { return loaded_share_ * pressure_; }
+  double pressure() const { return loaded_fraction_ * pressure_; }
   // 1, fraction of the lateral area between the planes: the area loaded now over the area loaded when the
   // specimen was last intact, at most 1. It is 1 until the first sphere is loose.
-  double loaded_share() const { return loaded_share_; }
+  double loaded_fraction() const { return loaded_fraction_; }
   double work() const { return work_; }     // J, done by the pressure since the start
   double factor() const { return factor_; } // of Voronoi areas
   // Sum of the area vectors along the outward normals of the shape over its lateral area: 1 if the whole
@@ -69,8 +69,8 @@ private:
   ConfinementArea kind_;
   double mean_radius_ = 0, factor_ = 1;
   double pressure_ = 0, work_ = 0; // Pa, as given; J
-  std::size_t whole_ = 0;          // spheres of loaded pieces, at the start
-  double whole_coverage_ = 1, loaded_share_ = 1;
+  std::size_t intact_spheres_ = 0; // spheres of loaded pieces, at the start
+  double intact_coverage_ = 1, loaded_fraction_ = 1;
   long lists_made_ = 0;
   double moved_ = 0, broken_ = 0; // m, since the areas were found; broken bonds then
   Table table_;

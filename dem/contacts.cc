@@ -304,13 +304,13 @@ void Contacts::describe(Archive &archive) {
   platen::describe(archive, "damping_work", damping_work, "J");
   archive.table("rows", table);
   archive.part("search", search_);
-  if (const StateSource *state = archive.looks_at()) require_whole(*state, archive.path(""));
+  if (const StateSource *state = archive.looks_at()) require_consistent(*state, archive.path(""));
   if (archive.reads()) rows_changed();
 }
 
 // Throws StateError if the lists of pairs do not ascend or contain particles that do not exist, or if the
 // close pairs are not the pairs of the rows.
-void Contacts::require_whole(const StateSource &state, const std::string &at) const {
+void Contacts::require_consistent(const StateSource &state, const std::string &at) const {
   const std::vector<int> of_first = rows_of<int>(state, at + "rows/first"),
                          of_second = rows_of<int>(state, at + "rows/second");
   require_ascending_pairs(at + "rows/second", of_first, of_second, particles_);

@@ -124,7 +124,7 @@ private:
   void cut_blocks(const Particles &particles);
   double coefficient_of(const Particles &particles, int first, int second) const;
   double stored_energy(std::size_t k) const;
-  void require_whole(const StateSource &state, const std::string &at) const;
+  void require_consistent(const StateSource &state, const std::string &at) const;
   double start_contact(const Particles &particles, std::size_t k, double dt, BrokenBond &broken);
   Vector3 keep_shear(std::size_t k, double pressing, BrokenBond &broken);
 

@@ -53,7 +53,7 @@ public:
   // ranks. No rank sends more than `most`, the same value on all ranks.
   virtual void send_to_all(const std::vector<char> &bytes, std::size_t most) = 0;
   struct Received {
-    const char *data = nullptr; // until the next send_to_all()
+    const char *data = nullptr; // valid until the next send_to_all()
     std::size_t count = 0;
   };
   virtual std::vector<Received> receive_from_all() = 0;

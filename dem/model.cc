@@ -120,10 +120,10 @@ void Model::search_contacts() {
   if (wide) exchange_->renew_contacts(*this);
 }
 
-void Model::compute_forces(double dt, const Loop &beside, const std::function<void()> &done) {
+void Model::compute_forces(double dt, const Loop &parallel_loop, const std::function<void()> &done) {
   search_contacts();
-  if (exchange_) return compute_shared(dt, beside, done);
-  compute_bonds(dt, nullptr, beside);
+  if (exchange_) return compute_shared(dt, parallel_loop, done);
+  compute_bonds(dt, nullptr, parallel_loop);
   finish_breaks(dt);
   compute_contacts(dt, nullptr);
 }
@@ -150,19 +150,19 @@ void Model::compute_again() {
   again_.clear();
 }
 
-void Model::compute_bonds(double dt, const BlockList *listed, const Loop &beside) {
+void Model::compute_bonds(double dt, const BlockList *listed, const Loop &parallel_loop) {
   if (!bonds) {
     set_weight(particles, settings_.gravity, listed);
-    run_loops(beside);
+    run_loops(parallel_loop);
     return;
   }
   StageClock::Lap lap(clock, Stage::bonds);
   if (has_history(bonds->law))
     works.damping += compute_cohesive_forces(particles, *bonds, settings_.instruction_set, settings_.gravity,
-                                             dt, breaks_, beside, listed);
+                                             dt, breaks_, parallel_loop, listed);
   else
     works.damping += compute_bond_forces(particles, *bonds, settings_.instruction_set, settings_.gravity, dt,
-                                         breaks_, beside, listed);
+                                         breaks_, parallel_loop, listed);
 }
 
 void Model::finish_breaks(double dt) {
@@ -249,11 +249,11 @@ Part Model::sum_of_blocks(std::vector<Part> parts) const {
   return sum;
 }
 
-double Model::whole(const ExactSum &sum) const {
+double Model::total(const ExactSum &sum) const {
   return cut_ ? exchange_->all(sum) : sum;
 }
 
-std::size_t Model::whole(std::size_t count) const {
+std::size_t Model::total(std::size_t count) const {
   return cut_ ? static_cast<std::size_t>(exchange_->all(static_cast<long>(count))) : count;
 }
 
@@ -263,11 +263,11 @@ BondTotals Model::bond_totals() const {
 }
 
 double Model::unbalanced() const {
-  return whole(sums_.unbalanced);
+  return total(sums_.unbalanced);
 }
 
 std::size_t Model::touching_count() const {
-  return contacts ? whole(contacts->touching_count()) : 0;
+  return contacts ? total(contacts->touching_count()) : 0;
 }
 
 EnergyLedger Model::energy() const {
@@ -279,13 +279,13 @@ EnergyLedger Model::energy() const {
   }
   const BlockList *own = cut_ ? own_blocks() : nullptr;
   e.kinetic = sum_of_blocks(kinetic_energy_of_blocks(particles, own));
-  e.damping = whole(works.damping);
+  e.damping = total(works.damping);
   e.fracture = works.fracture;
-  e.boundary = whole(works.weight);
+  e.boundary = total(works.weight);
   if (contacts) {
     e.contacts = sum_of_blocks(contacts->energy_of_blocks(own));
-    e.damping += whole(contacts->damping_work);
-    e.friction = whole(contacts->friction_work);
+    e.damping += total(contacts->damping_work);
+    e.friction = total(contacts->friction_work);
   }
   if (bonds) {
     const BondTotals totals = bond_totals();
@@ -302,7 +302,7 @@ std::vector<Crack> Model::take_cracks() {
 }
 
 std::size_t Model::intact_bonds() const {
-  return bonds ? whole(bonds->size() - bonds->broken_rows - bonds->failed_rows) : 0;
+  return bonds ? total(bonds->size() - bonds->broken_rows - bonds->failed_rows) : 0;
 }
 
 std::size_t Model::bytes() const {

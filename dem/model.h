@@ -108,10 +108,10 @@ public:
   // First half kick and drift; time becomes that of the new positions.
   void begin_step(double dt);
   // Contact search, bonds, breaks and their transfer to contacts, grain contacts. Particle force and torque
-  // then contain these and the weight, except what is still in the ghosts. `beside` runs on free threads: it
-  // may read particles but must not write them. Throws NotFinite if the search finds a position that is not
-  // finite. With ranks, `done` is called after `beside`, while work remains.
-  void compute_forces(double dt, const Loop &beside = {}, const std::function<void()> &done = {});
+  // then contain these and the weight, except what is still in the ghosts. `parallel_loop` runs on free
+  // threads: it may read particles but must not write them. Throws NotFinite if the search finds a position
+  // that is not finite. With ranks, `done` is called after `parallel_loop`, while work remains.
+  void compute_forces(double dt, const Loop &parallel_loop = {}, const std::function<void()> &done = {});
   // Ghosts of bonds and contacts, damping, second half kick; forces are then complete.
   void end_step(double dt);
   void end_and_begin_step(double finished, double next);
@@ -191,15 +191,16 @@ private:
   void begun(double dt);
   void start_exchange(double dt);
   void search_contacts();
-  void compute_bonds(double dt, const BlockList *listed, const Loop &beside = {});
-  void compute_portions(double dt, const BlockList &listed, const Loop &beside = {});
-  void compute_shared(double dt, const Loop &beside, const std::function<void()> &done);
+  void compute_bonds(double dt, const BlockList *listed, const Loop &parallel_loop = {});
+  void compute_portions(double dt, const BlockList &listed, const Loop &parallel_loop = {});
+  void compute_shared(double dt, const Loop &parallel_loop, const std::function<void()> &done);
   void receive_ghosts();
   void add_sums();
   template <class Part>
   Part sum_of_blocks(std::vector<Part> parts) const;
-  double whole(const ExactSum &sum) const;
-  std::size_t whole(std::size_t count) const;
+  // Totals of all ranks.
+  double total(const ExactSum &sum) const;
+  std::size_t total(std::size_t count) const;
   const BlockList *own_blocks() const { return exchange_ ? &exchange_->blocks().all : nullptr; }
   double last_step_ = 0; // s
   Ghosts ghosts() const;

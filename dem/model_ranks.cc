@@ -28,9 +28,9 @@ void Model::start_exchange(double dt) {
 
 // Outer blocks come first, so that their forces on particles of other ranks are sent while the remaining
 // inner blocks are computed.
-void Model::compute_shared(double dt, const Loop &beside, const std::function<void()> &done) {
+void Model::compute_shared(double dt, const Loop &parallel_loop, const std::function<void()> &done) {
   const OwnBlocks &blocks = exchange_->blocks();
-  compute_portions(dt, blocks.outer, beside);
+  compute_portions(dt, blocks.outer, parallel_loop);
   if (done) done();
   finish_breaks(dt);
   compute_again();
@@ -41,8 +41,8 @@ void Model::compute_shared(double dt, const Loop &beside, const std::function<vo
   if (contacts) exchange_->send_contact_ghosts(contacts->blocks());
 }
 
-// `beside` runs with the last portion.
-void Model::compute_portions(double dt, const BlockList &listed, const Loop &beside) {
+// `parallel_loop` runs with the last portion.
+void Model::compute_portions(double dt, const BlockList &listed, const Loop &parallel_loop) {
   const std::size_t portion = blocks_between_progress * static_cast<std::size_t>(loop_threads());
   BlockList some;
   for (std::size_t first = 0; first + portion < listed.size(); first += portion) {
@@ -53,7 +53,7 @@ void Model::compute_portions(double dt, const BlockList &listed, const Loop &bes
   }
   const std::size_t rest = listed.empty() ? 0 : (listed.size() - 1) / portion * portion;
   some.assign(listed.begin() + static_cast<std::ptrdiff_t>(rest), listed.end());
-  compute_bonds(dt, &some, beside);
+  compute_bonds(dt, &some, parallel_loop);
   exchange_->progress();
 }
 
@@ -78,7 +78,7 @@ void Model::gather_motion() {
 
 std::vector<double> Model::bond_losses() const {
   std::vector<double> losses = dem::bond_losses(*bonds);
-  if (!exchange_ || !cut_ || !damaged_rows_apart(bonds->law)) return losses;
+  if (!exchange_ || !cut_ || !damaged_rows_separate(bonds->law)) return losses;
   struct Loss {
     std::size_t record;
     double value;

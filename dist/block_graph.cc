@@ -89,7 +89,7 @@ void add_pairs(BlockGraph &graph, const dem::PairBlocks &pairs) {
   set_edges(graph, edges);
 }
 
-void require_whole(const BlockGraph &graph) {
+void require_consistent(const BlockGraph &graph) {
   const std::size_t blocks = graph.blocks();
   if (graph.centre.size() != blocks || graph.first_edge.size() != blocks + 1 ||
       graph.edge_weight.size() != graph.neighbour.size() || graph.first_edge.front() != 0 ||

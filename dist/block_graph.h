@@ -35,6 +35,6 @@ void add_pairs(BlockGraph &graph, const dem::PairBlocks &pairs);
 
 // Throws std::invalid_argument where lengths do not match, weights are negative or not finite, or an edge
 // does not join two blocks, or is in one of its two blocks alone, or with another weight.
-void require_whole(const BlockGraph &graph);
+void require_consistent(const BlockGraph &graph);
 
 } // namespace platen::dist

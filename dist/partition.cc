@@ -105,7 +105,7 @@ std::vector<int> cut_in_order(const std::vector<double> &weight, int parts) {
 }
 
 Partition partition(const BlockGraph &graph, int ranks, const PartitionLimits &limits) {
-  require_whole(graph);
+  require_consistent(graph);
   if (ranks < 1) throw std::invalid_argument("a cut of blocks over " + std::to_string(ranks) + " ranks");
   if (graph.blocks() == 0) return {};
   const int parts = static_cast<int>(std::min(static_cast<std::size_t>(ranks), graph.blocks()));
@@ -118,7 +118,7 @@ Partition partition(const BlockGraph &graph, int ranks, const PartitionLimits &l
 }
 
 Partition partition(const BlockGraph &graph, MPI_Comm ranks, const PartitionLimits &limits) {
-  require_whole(graph);
+  require_consistent(graph);
   int rank = 0, size = 1;
   MPI_Comm_rank(ranks, &rank);
   MPI_Comm_size(ranks, &size);

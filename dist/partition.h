@@ -36,7 +36,8 @@ struct PartitionLimits {
 
 // Cuts the graph by all methods and returns the best that leaves no useful rank without a block. The result
 // depends only on graph, limits and `ranks`, not on the number of running ranks (but MPI must be
-// initialised). Throws std::invalid_argument where the graph is not consistent (require_whole) or ranks < 1.
+// initialised). Throws std::invalid_argument where the graph is not consistent (require_consistent) or ranks
+// < 1.
 Partition partition(const BlockGraph &graph, int ranks, const PartitionLimits &limits = {});
 
 // The same for the running ranks: rank 0 computes the cut and sends it. Collective; every rank passes the

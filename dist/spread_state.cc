@@ -15,16 +15,16 @@ constexpr std::array<const char *, 8> moving{"position",        "velocity",   "f
                                              "excess_velocity", "excess_spin"};
 
 // Adds own rows; joins them with the last run where both row numbers continue it.
-void add_block(SpreadRows &rows, std::size_t own, std::size_t whole, std::size_t count) {
+void add_block(SpreadRows &rows, std::size_t own, std::size_t global, std::size_t count) {
   if (count == 0) return;
   if (!rows.runs.empty()) {
     SpreadRows::Run &last = rows.runs.back();
-    if (last.own + last.count == own && last.whole + last.count == whole) {
+    if (last.own + last.count == own && last.global + last.count == global) {
       last.count += count;
       return;
     }
   }
-  rows.runs.push_back({own, whole, count});
+  rows.runs.push_back({own, global, count});
 }
 
 // Rows of pairs, in the order of the blocks of their first particle: this rank has those of its own blocks.
@@ -41,10 +41,10 @@ SpreadRows spread_pairs(const Ranks &ranks, std::size_t own_rows, const FirstOf 
   for (std::size_t b = 0; b < owner.size(); ++b) {
     const std::size_t count = static_cast<std::size_t>(rows_of_block[b]);
     if (owner[b] == ranks.rank()) {
-      add_block(rows, own, rows.whole, count);
+      add_block(rows, own, rows.global, count);
       own += count;
     }
-    rows.whole += count;
+    rows.global += count;
   }
   return rows;
 }
@@ -62,16 +62,16 @@ bool is_moving(const std::string &column) {
 std::vector<FilePiece> SpreadRows::pieces(const void *data, std::size_t bytes_per_row) const {
   std::vector<FilePiece> own;
   for (const Run &run : runs)
-    own.push_back({run.whole * bytes_per_row, static_cast<const char *>(data) + run.own * bytes_per_row,
+    own.push_back({run.global * bytes_per_row, static_cast<const char *>(data) + run.own * bytes_per_row,
                    run.count * bytes_per_row});
   return own;
 }
 
 SpreadState::SpreadState(const Ranks &ranks, dem::Model &model, std::string name) : name_(std::move(name)) {
-  particles_.whole = model.particles.size();
+  particles_.global = model.particles.size();
   for (const int block : ranks.blocks().all) {
     const std::size_t first = static_cast<std::size_t>(block) * block_rows;
-    add_block(particles_, first, first, std::min(block_rows, particles_.whole - first));
+    add_block(particles_, first, first, std::min(block_rows, particles_.global - first));
   }
   if (const dem::Bonds *bonds = model.bonds.get())
     tables_["bonds/rows/"] =
@@ -94,7 +94,7 @@ SpreadState::SpreadState(const Ranks &ranks, dem::Model &model, std::string name
 }
 
 const SpreadRows *SpreadState::rows_of(const std::string &block) const {
-  if (!begins_with(block, name_) || size_told_by(block)) return nullptr;
+  if (!begins_with(block, name_) || table_size_in(block)) return nullptr;
   const std::string of_model = block.substr(name_.size()), particles = "particles/";
   if (begins_with(of_model, particles))
     return is_moving(of_model.substr(particles.size())) ? &particles_ : nullptr;
@@ -104,9 +104,9 @@ const SpreadRows *SpreadState::rows_of(const std::string &block) const {
   return nullptr;
 }
 
-std::optional<std::uint64_t> SpreadState::size_told_by(const std::string &block) const {
+std::optional<std::uint64_t> SpreadState::table_size_in(const std::string &block) const {
   for (const auto &[name, rows] : tables_)
-    if (block == name_ + name + "size") return rows.whole;
+    if (block == name_ + name + "size") return rows.global;
   return std::nullopt;
 }
 

@@ -25,16 +25,16 @@ bool is_moving(const std::string &column);
 // Rows of a block of a state on one rank.
 struct SpreadRows {
   struct Run {
-    std::size_t own, whole, count; // first row here, first row in the whole, rows
+    std::size_t own, global, count; // first row here, first row among those of all ranks, number of rows
   };
-  std::size_t whole = 0; // rows of all ranks
-  std::vector<Run> runs; // of this one, ascending
+  std::size_t global = 0; // rows of all ranks
+  std::vector<Run> runs;  // of this one, ascending
 
-  // This rank's pieces of the bytes of the whole block; its rows begin at `data` here.
+  // This rank's pieces of the bytes of the complete block; its rows begin at `data` here.
   std::vector<FilePiece> pieces(const void *data, std::size_t bytes_per_row) const;
 };
 
-// Rows of a cut model in its current state, after settle_state(); by the names of Model::describe.
+// Rows of a cut model in its current state, after settle_state(). Blocks have the names of Model::describe.
 class SpreadState {
 public:
   // Collective. `name` is that of the model's part in the state, with a slash: "test/specimen/".
@@ -43,7 +43,7 @@ public:
   // Null: the block is complete on rank 0.
   const SpreadRows *rows_of(const std::string &block) const;
   // The number of rows of a table, which a block of its own contains; none for any other block.
-  std::optional<std::uint64_t> size_told_by(const std::string &block) const;
+  std::optional<std::uint64_t> table_size_in(const std::string &block) const;
 
 private:
   std::string name_;

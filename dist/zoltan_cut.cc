@@ -89,7 +89,7 @@ void set_up(Zoltan_Struct *zoltan, int parts, PartitionMethod method, const Bloc
   set("LB_APPROACH", "PARTITION");
   set("EDGE_WEIGHT_DIM", "1");
   set("PHG_EDGE_SIZE_THRESHOLD", "1.0"); // small graphs have blocks with many neighbours
-  set("CHECK_GRAPH", "0");               // require_whole has checked it
+  set("CHECK_GRAPH", "0");               // require_consistent has checked it
   Zoltan_Set_Num_Edges_Multi_Fn(zoltan, list_edge_numbers, data);
   Zoltan_Set_Edge_List_Multi_Fn(zoltan, list_edges, data);
 }

@@ -82,7 +82,7 @@ StaticTest load_bar(const dem::Model &model, const BarGeometry &bar, BarLoad loa
   StaticTest test;
   test.load = size;
   test.state = solve_static(model.particles, *model.bonds, at_rest, settings);
-  test.energy = energy_shares(model.particles, *model.bonds, test.state.displacement, test.state.turn);
+  test.energy = bond_energies(model.particles, *model.bonds, test.state.displacement, test.state.turn);
   const EndMotion end = motion_of(model.particles, bar.high, test.state.displacement, test.state.turn);
   test.measured = along(load, end, bar.along_x);
   return test;

@@ -13,7 +13,7 @@ struct StaticTest {
   double load = 0;     // N, N m
   double measured = 0; // m, rad: the free end along the load
   dem::StaticState state;
-  dem::EnergyShares energy; // J
+  dem::BondEnergies energy; // J
 };
 
 // The rod between the middles of the clamped and of the loaded spheres.

@@ -36,7 +36,7 @@ void step_through(Model &model, const BarGeometry &bar, const Clocking &clocking
   const Particles &p = model.particles;
   model.compute_forces(0);
   model.end_step(0);
-  const double initial = kinetic_energy(p) + energy_shares(p, *model.bonds).total();
+  const double initial = kinetic_energy(p) + bond_energies(p, *model.bonds).total();
   const auto give = [&] {
     BarSample s;
     s.time = model.time;
@@ -46,7 +46,7 @@ void step_through(Model &model, const BarGeometry &bar, const Clocking &clocking
     s.quarter = mean_along_z(p.position, bar.quarter.rows) - bar.quarter.z;
     s.half = mean_along_z(p.position, bar.half.rows) - bar.half.z;
     s.kinetic = kinetic_energy(p);
-    s.energy = energy_shares(p, *model.bonds);
+    s.energy = bond_energies(p, *model.bonds);
     s.residual = s.kinetic + s.energy.total() - initial;
     s.broken_tension = model.broken_tension;
     s.broken_shear = model.broken_shear;

@@ -20,7 +20,7 @@ struct BarSample {
   double quarter = 0, half = 0; // m along z, means at a quarter and half of the length from the struck end
   double kinetic = 0;           // J
   double residual = 0;          // J, change of kinetic and stored energy since it was released or struck
-  dem::EnergyShares energy;     // J
+  dem::BondEnergies energy;     // J
   long broken_tension = 0, broken_shear = 0;
 };
 // Takes each sample that is written; returns false to stop the run.

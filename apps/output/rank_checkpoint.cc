@@ -22,10 +22,10 @@ public:
 
   void add(const std::string &name, const BlockType &type, const void *data, std::size_t rows) override {
     if (const dist::SpreadRows *own = spread_.rows_of(name))
-      add_spread(name, type, own->pieces(data, type.bytes_per_row()), own->whole * type.bytes_per_row());
+      add_spread(name, type, own->pieces(data, type.bytes_per_row()), own->global * type.bytes_per_row());
     else if (rank_ != 0)
       return;
-    else if (const auto size = spread_.size_told_by(name))
+    else if (const auto size = spread_.table_size_in(name))
       BlockWriter::add(name, type, &*size, sizeof *size / type.bytes_per_row());
     else
       BlockWriter::add(name, type, data, rows);

@@ -20,7 +20,7 @@ bool is_stress(const Controlled &c) {
 // "3.42 of 5 MPa"
 std::string reached_of_asked(const Controlled &c) {
   const double unit = is_stress(c) ? 1e-6 : 1;
-  return fmt::format("{:.4g} of {:.4g} {}", unit * c.reached, unit * c.asked, is_stress(c) ? "MPa" : c.unit);
+  return fmt::format("{:.4g} of {:.4g} {}", unit * c.reached, unit * c.target, is_stress(c) ? "MPa" : c.unit);
 }
 
 std::vector<Controlled> misses(const coupling::PlatenTest &problem, std::size_t stage) {
@@ -33,7 +33,7 @@ std::vector<Controlled> misses(const coupling::PlatenTest &problem, std::size_t 
 bool is_asked_again(const coupling::PlatenTest &problem, int axis, std::size_t after, std::size_t until) {
   for (std::size_t stage = after + 1; stage <= until; ++stage)
     for (const Controlled &c : problem.program().controls(stage))
-      if (c.axis == axis && !c.held) return true;
+      if (c.axis == axis && !c.constant) return true;
   return false;
 }
 
@@ -90,10 +90,10 @@ std::string confinement_against(const Results &results, double time) {
   const std::vector<Sample> &samples = results.samples();
   const auto at =
       std::find_if(samples.begin(), samples.end(), [&](const Sample &s) { return s.time >= time; });
-  if (at == samples.end() || !(at->confined_share < least_confined)) return "";
+  if (at == samples.end() || !(at->confined_fraction < least_confined)) return "";
   return fmt::format(
       "the pressure loaded {:.0f} % of the lateral surface then, {:.0f} % at least: pieces have come loose",
-      100 * at->confined_share, 100 * least_confined);
+      100 * at->confined_fraction, 100 * least_confined);
 }
 
 PressurePath pressure_path(const coupling::PlatenTest &problem, const Results &results) {

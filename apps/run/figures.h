@@ -39,7 +39,7 @@ void list_run(List &list) {
   list.add("tiles", "1", [](auto &t) { return t.tiling.tiles; });
   list.add("tile_period_m", "m", [](auto &t) { return t.tiling.period; });
   list.where(everywhere);
-  list.add("section/over", "", [](auto &t) { return t.problem.section_share() == 1 ? "nominal" : "net"; });
+  list.add("section/over", "", [](auto &t) { return t.problem.section_fraction() == 1 ? "nominal" : "net"; });
   list.add("section/area_m2", "m2", [](auto &t) { return t.problem.nominal_area(); });
   list.add("section/filled_mean", "1", [](auto &t) { return t.problem.section().mean; });
   list.add("section/filled_least", "1", [](auto &t) { return t.problem.section().least; });
@@ -226,7 +226,7 @@ void list_disc_and_bar(List &list) {
            {"flexural modulus", "{:.2f} GPa", 1e-9}, "deflection_m",
            [](auto &t) { return t.flexural_modulus(); });
   list.add("shear_over_bending_deflection", "1", whole_bar,
-           [](auto &t) { return t.problem.three_points().shear_share(t.assumed_poisson_ratio); });
+           [](auto &t) { return t.problem.three_points().shear_fraction(t.assumed_poisson_ratio); });
   list.add("moment_over_nominal", "1", peak | section, {"moment at mid-span over PL/4", "{:.3f}"},
            "midspan_moment_n_m", [](auto &t) { return t.moment_over_nominal(); });
   list.add("swings_to_peak", "1", history, {"swings of the bar to the peak", "{:.1f}"},

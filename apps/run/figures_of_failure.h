@@ -91,8 +91,8 @@ void list_pattern(List &list, bool last) {
   list.add_object(planes);
   list.where([=](auto &t) { return t.has_failure(last); });
   of_all("/count", "1", [](auto &p) { return static_cast<int>(p.count); });
-  of_all("/share", "1", [](auto &p) { return p.share; });
-  of_all("/steep_share", "1", [](auto &p) { return p.steep_share; });
+  of_all("/share", "1", [](auto &p) { return p.fraction; });
+  of_all("/steep_share", "1", [](auto &p) { return p.steep_fraction; });
   of_all("/mean_inclination_deg", "degree", [](auto &p) { return p.mean_inclination / degree; });
   list.add_object(largest);
   list.where([=](auto &t) { return t.has_failure(last) && t.failure(last).planes.count > 0; });

@@ -164,8 +164,8 @@ const std::vector<HistoryColumn> &history_columns() {
          return 0.5 * (s.problem.stress_top() + s.problem.stress_bottom()) - s.problem.confining_pressure();
        },
        number, in_cell},
-      {"confined_area_share", "1", &S::confined_share,
-       [](const Seen &s) { return s.problem.confined_share(); }, number, in_cell, without_pressure},
+      {"confined_area_share", "1", &S::confined_fraction,
+       [](const Seen &s) { return s.problem.confined_fraction(); }, number, in_cell, without_pressure},
       {"volumetric_strain_sleeve", "1", &S::sleeve_volumetric_strain,
        [](const Seen &s) { return s.problem.sleeve_volumetric_strain(); }, number, in_sleeve},
       {"sleeve_deviator_pa", "Pa", &S::sleeve_deviator,

@@ -27,7 +27,7 @@ struct Sample {
   double stress_top = 0, stress_bottom = 0;        // Pa
   double confining_pressure = 0;                   // Pa, that acts: of a cell or on a wall
   // Of the lateral surface that a cell loads.
-  double confined_share = not_measured;
+  double confined_fraction = not_measured;
   double cell_pressure = 0;            // Pa, of a cell alone
   double sleeve_volumetric_strain = 0; // of the volume within a sleeve
   double sleeve_deviator = 0;          // Pa, axial, over the specimen's area

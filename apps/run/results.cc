@@ -26,7 +26,7 @@ Pattern Results::measure_pattern(const coupling::PlatenTest &problem) const {
   const dem::Bonds &bonds = *problem.model.bonds;
   if (axis_ == 2)
     p.failure =
-        dem::measure_failure(problem.model.particles, bonds, problem.shape(), soundness_,
+        dem::measure_failure(problem.model.particles, bonds, problem.shape(), intact_rules_,
                              has_fallen() ? state_at_peak_.motion_since(problem) : dem::MotionAfterPeak{},
                              problem.model.bond_losses());
   p.broken_tension = static_cast<double>(problem.model.broken(dem::BondState::broken_in_tension));

@@ -69,10 +69,10 @@ public:
   // after the peak is followed where the test has a failure pattern.
   // A peak is the largest deviator of the samples in which the specimen is loaded on, and all that is
   // reported of it is of that sample; a fall shows there too, while the other sides are asked the same.
-  explicit Results(bool tension = false, const dem::Soundness &soundness = {}, int axis = 2,
+  explicit Results(bool tension = false, const dem::IntactRules &intact_rules = {}, int axis = 2,
                    bool measures_pattern = true)
       : sign_(tension ? -1.0 : 1.0),
-        soundness_(soundness),
+        intact_rules_(intact_rules),
         axis_(axis),
         follows_motion_(measures_pattern && axis == 2) {}
 
@@ -171,7 +171,7 @@ private:
   Pattern measure_pattern(const coupling::PlatenTest &problem) const;
 
   double sign_;
-  dem::Soundness soundness_;
+  dem::IntactRules intact_rules_;
   int axis_;
   bool follows_motion_;
   StateAtPeak state_at_peak_;

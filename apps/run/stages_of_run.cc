@@ -10,7 +10,7 @@ Json controls_of_stage(const coupling::PlatenTest &problem, std::size_t stage) {
   for (const coupling::Controlled &c : problem.program().controls(stage))
     all.push_back({{"quantity", c.quantity},
                    {"side", c.side},
-                   {"asked", c.asked},
+                   {"asked", c.target},
                    {"reached", c.reached},
                    {"unit", c.unit},
                    {"met", c.is_met()}});

@@ -143,9 +143,9 @@ std::string reason_words(const dem::FailureMeasures &m) {
       return fmt::format("{:.0f} sound pieces reach from platen to platen", m.columns);
     case dem::DecidedBy::steep_planes:
       return fmt::format("{:.0f} % of the lost bonds lie in planes within 15 degrees of the axis",
-                         100 * m.planes.steep_share);
+                         100 * m.planes.steep_fraction);
     case dem::DecidedBy::few_broken:
-      return fmt::format("{:.1f} % of the bonds are broken", 100 * m.broken_share);
+      return fmt::format("{:.1f} % of the bonds are broken", 100 * m.broken_fraction);
     case dem::DecidedBy::crushed_end:
       return fmt::format("one end has lost {:.0f} % of its bonds", 100 * m.damage.worse_end());
     case dem::DecidedBy::nothing:

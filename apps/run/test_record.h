@@ -87,7 +87,7 @@ struct TestRecord {
   const dem::DeadZone &dead_zone(bool last, dem::End end) const {
     return failure(last).dead[static_cast<std::size_t>(end)];
   }
-  bool has_failure(bool last) const { return !std::isnan(failure(last).broken_share); }
+  bool has_failure(bool last) const { return !std::isnan(failure(last).broken_fraction); }
   bool has_pattern(bool last) const { return measures_pattern(scene, problem) && has_failure(last); }
   bool has_emission() const;
   std::string word_of_pattern(bool last) const;

@@ -52,7 +52,7 @@ Words against_bare(Test t) {
 
 Words against_section(Test t) {
   const dem::SolidSection &section = t.problem.section();
-  if (section.fills() || t.problem.section_share() != 1) return {};
+  if (section.fills() || t.problem.section_fraction() != 1) return {};
   return {"the spheres and their pores fill " + text_of(section) +
           ": a stress over the nominal section is not that of the material" +
           (section.same_at_all_heights() ? ". Specimen/Section = net divides by what is filled" : "")};

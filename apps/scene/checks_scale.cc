@@ -1,6 +1,6 @@
 // What entries make together: proportions, waves, steps, stresses. Each of them may be in its own range and
 // the whole still be a slip of a unit, or two numbers in each other's place. Orders of magnitude, before
-// anything is packed; a run asks once more when its time step is known (apps/run/compression_setup.cc).
+// anything is packed; a run checks once more when its time step is known (apps/run/compression_setup.cc).
 #include "apps/scene/scene_check.h"
 
 #include <algorithm>
@@ -126,9 +126,9 @@ void SceneCheck::strips() const {
 void SceneCheck::stage_rates() const {
   for (std::size_t k = 0; k < scene_.loading.stage_sections.size(); ++k)
     for (const coupling::SideGroup group : coupling::all_side_groups) {
-      const auto &ask = scene_.loading.stage_sections[k].asks.at(static_cast<std::size_t>(group));
-      if (ask && ask->ask == coupling::SideAsk::Ask::rate &&
-          std::abs(ask->value) > most_of_wave_speed * wave_speed())
+      const auto &control = scene_.loading.stage_sections[k].controls.at(static_cast<std::size_t>(group));
+      if (control && control->mode == coupling::SideControl::Mode::rate &&
+          std::abs(control->value) > most_of_wave_speed * wave_speed())
         refuse(section_of_stage(k + 1) + "/" + key_of(group),
                "is more than " + number(most_of_wave_speed) + " of the speed of waves, " +
                    number(wave_speed()) + " m/s by " + set_to("Bond/Modulus") + " and " +
@@ -182,10 +182,10 @@ void SceneCheck::stresses() const {
   if (!loads()) return;
   for (std::size_t k = 0; k < scene_.loading.stage_sections.size(); ++k)
     for (const coupling::SideGroup group : coupling::all_side_groups) {
-      const auto &ask = scene_.loading.stage_sections[k].asks.at(static_cast<std::size_t>(group));
-      using Ask = coupling::SideAsk::Ask;
-      if (ask && (ask->ask == Ask::stress || ask->ask == Ask::pressure))
-        pressed(section_of_stage(k + 1) + "/" + key_of(group), ask->value);
+      const auto &control = scene_.loading.stage_sections[k].controls.at(static_cast<std::size_t>(group));
+      using Mode = coupling::SideControl::Mode;
+      if (control && (control->mode == Mode::stress || control->mode == Mode::pressure))
+        pressed(section_of_stage(k + 1) + "/" + key_of(group), control->value);
     }
 }
 

@@ -32,12 +32,12 @@ std::optional<dem::BondParameters> Bond::parameters() const {
 
 bool Bond::remembers() const {
   return bonded() &&
-         dem::BondLaws::ask(static_cast<std::size_t>(law), [](auto *of) { return of->has_history; });
+         dem::BondLaws::holds(static_cast<std::size_t>(law), [](auto *of) { return of->has_history; });
 }
 
 bool Bond::bonds_by_range() const {
   return bonded() &&
-         dem::BondLaws::ask(static_cast<std::size_t>(law), [](auto *of) { return of->bonds_by_range; });
+         dem::BondLaws::holds(static_cast<std::size_t>(law), [](auto *of) { return of->bonds_by_range; });
 }
 
 bool Bond::has(const std::string &member) const {

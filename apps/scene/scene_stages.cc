@@ -10,30 +10,36 @@
 namespace platen::apps {
 namespace {
 
-using coupling::SideAsk;
+using coupling::SideControl;
 using coupling::SideGroup;
 using coupling::StageUntil;
-using Ask = SideAsk::Ask;
+using Mode = SideControl::Mode;
 using Reached = coupling::Until::Reached;
 
-const std::vector<std::pair<std::string, Ask>> &words_of_asks() {
-  static const std::vector<std::pair<std::string, Ask>> words{{"rate", Ask::rate},
-                                                              {"unload", Ask::rate},
-                                                              {"stress", Ask::stress},
-                                                              {"share of", Ask::share},
-                                                              {"pressure", Ask::pressure},
-                                                              {"hold", Ask::hold},
-                                                              {"free", Ask::free},
-                                                              {"circumferential rate", Ask::circumferential},
-                                                              {"cmod rate", Ask::mouth_opening}};
+const std::vector<std::pair<std::string, Mode>> &words_of_modes() {
+  static const std::vector<std::pair<std::string, Mode>> words{
+      {"rate", Mode::rate},
+      {"unload", Mode::rate},
+      {"stress", Mode::stress},
+      {"share of", Mode::fraction},
+      {"pressure", Mode::pressure},
+      {"hold", Mode::hold},
+      {"free", Mode::free},
+      {"circumferential rate", Mode::circumferential},
+      {"cmod rate", Mode::mouth_opening}};
   return words;
 }
 
 // "strain change" before "strain".
-constexpr std::array all_ends{
-    Reached::strain_change, Reached::strain,         Reached::stress,
-    Reached::share_of_peak, Reached::share_of_start, Reached::circumferential_strain,
-    Reached::mouth_opening, Reached::time,           Reached::settled};
+constexpr std::array all_ends{Reached::strain_change,
+                              Reached::strain,
+                              Reached::stress,
+                              Reached::fraction_of_peak,
+                              Reached::fraction_of_start,
+                              Reached::circumferential_strain,
+                              Reached::mouth_opening,
+                              Reached::time,
+                              Reached::settled};
 
 // Of the value of an end.
 const char *unit_of(Reached what) {
@@ -95,7 +101,8 @@ double strain_rate_of(const std::string &text) {
 
 bool StageSection::given() const {
   return ramp > 0 || hold > 0 || !until.empty() ||
-         std::any_of(asks.begin(), asks.end(), [](const auto &ask) { return ask.has_value(); });
+         std::any_of(controls.begin(), controls.end(),
+                     [](const auto &control) { return control.has_value(); });
 }
 
 std::string section_of_stage(std::size_t number) {
@@ -108,43 +115,43 @@ std::string key_of(SideGroup group) {
   return key;
 }
 
-std::optional<SideAsk> read_ask(const std::string &text) {
+std::optional<SideControl> read_control(const std::string &text) {
   std::string rest = tidy(text);
   if (rest.empty()) return std::nullopt;
-  for (const auto &[word, kind] : words_of_asks()) {
+  for (const auto &[word, kind] : words_of_modes()) {
     if (!take(rest, word)) continue;
-    SideAsk ask;
-    ask.ask = kind;
+    SideControl control;
+    control.mode = kind;
     switch (kind) {
-      case Ask::rate:
-        ask.back = word == "unload";
-        if (!rest.empty()) ask.value = value_of(rest, "m/s");
-        if (ask.back && ask.value <= 0) throw ValueError("unloads at no speed");
-        return ask;
-      case Ask::stress:
-      case Ask::pressure:
-        ask.value = value_of(rest, "Pa");
-        return ask;
-      case Ask::circumferential:
-        ask.value = strain_rate_of(rest);
-        return ask;
-      case Ask::mouth_opening:
-        ask.value = value_of(rest, "m/s");
-        return ask;
-      case Ask::share: {
+      case Mode::rate:
+        control.back = word == "unload";
+        if (!rest.empty()) control.value = value_of(rest, "m/s");
+        if (control.back && control.value <= 0) throw ValueError("unloads at no speed");
+        return control;
+      case Mode::stress:
+      case Mode::pressure:
+        control.value = value_of(rest, "Pa");
+        return control;
+      case Mode::circumferential:
+        control.value = strain_rate_of(rest);
+        return control;
+      case Mode::mouth_opening:
+        control.value = value_of(rest, "m/s");
+        return control;
+      case Mode::fraction: {
         const std::optional<SideGroup> of = take_side(rest);
         if (!of) fail_side(rest);
-        ask.of = *of;
-        ask.value = value_of(rest, "1");
-        return ask;
+        control.of = *of;
+        control.value = value_of(rest, "1");
+        return control;
       }
       default:
         if (!rest.empty()) throw ValueError("has \"" + rest + "\" after " + word);
-        return ask;
+        return control;
     }
   }
   std::vector<std::string> words;
-  for (const auto &one : words_of_asks())
+  for (const auto &one : words_of_modes())
     words.push_back(one.first);
   const std::string first = rest.substr(0, rest.find(' ')), nearest = nearest_word(first, words);
   throw ValueError("asks nothing that is known." +
@@ -182,8 +189,8 @@ std::vector<coupling::StageSettings> stages_of(const std::array<StageSection, mo
     coupling::StageSettings stage;
     stage.name = "stage " + std::to_string(k + 1);
     for (const SideGroup group : coupling::all_side_groups) {
-      std::optional<SideAsk> ask = section.asks.at(static_cast<std::size_t>(group));
-      if (ask) ask->side = group, stage.asks.push_back(*ask);
+      std::optional<SideControl> control = section.controls.at(static_cast<std::size_t>(group));
+      if (control) control->side = group, stage.controls.push_back(*control);
     }
     stage.ramp = section.ramp, stage.hold = section.hold, stage.until = section.until;
     stages.push_back(stage);

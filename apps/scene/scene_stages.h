@@ -14,8 +14,8 @@ constexpr std::size_t most_stages = 20;
 
 // One of "Loading/Stage 1" ... as it is read.
 struct StageSection {
-  std::array<std::optional<coupling::SideAsk>, coupling::all_side_groups.size()> asks; // by side
-  double ramp = 0, hold = 0;                                                           // s
+  std::array<std::optional<coupling::SideControl>, coupling::all_side_groups.size()> controls; // by side
+  double ramp = 0, hold = 0;                                                                   // s
   std::vector<coupling::StageUntil> until;
   bool given() const;
 };
@@ -25,7 +25,7 @@ std::string section_of_stage(std::size_t number);
 std::string key_of(coupling::SideGroup group);
 
 // "rate 0.05 m/s", "share of Axial 0.5", "hold"; "" is none. Throws ValueError.
-std::optional<coupling::SideAsk> read_ask(const std::string &text);
+std::optional<coupling::SideControl> read_control(const std::string &text);
 // "strain 0.4 %, share of peak 0.5, Left stress 5 MPa, settled"; "" is none. Throws ValueError.
 std::vector<coupling::StageUntil> read_until(const std::string &text);
 

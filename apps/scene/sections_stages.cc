@@ -4,7 +4,7 @@
 namespace platen::apps {
 namespace {
 
-const char *asked_words =
+const char *control_words =
     "rate [SPEED], unload [SPEED], stress VALUE, share of SIDE VALUE, pressure VALUE, hold, "
     "free, circumferential rate VALUE, cmod rate VALUE";
 const char *end_words =
@@ -33,8 +33,8 @@ void declare_stage(Parameters &parameters, StageSection &stage, std::size_t numb
   const std::string member = "loading.stage_" + std::to_string(number) + ".";
   for (const coupling::SideGroup group : coupling::all_side_groups)
     section
-        .value(key_of(group), stage.asks.at(static_cast<std::size_t>(group)), "", asked_words, read_ask,
-               about(group))
+        .value(key_of(group), stage.controls.at(static_cast<std::size_t>(group)), "", control_words,
+               read_control, about(group))
         .member(member + coupling::name_of(group));
   section
       .entry("Ramp", stage.ramp, "s", at_least(0),

@@ -18,18 +18,18 @@ public:
         ends_(ends),
         skin_(particles, bonds, shape, ends.planes(), area) {}
 
-  void drift(const Step &, const Command &command) override { asked_ = command.pressure; }
+  void drift(const Step &, const Command &command) override { prescribed_ = command.pressure; }
   // Before bonds are computed: afterwards ranks no longer have all of them.
   std::size_t prepare(const dem::Particles &particles, const Step &step) override {
     skin_.update(particles, bonds_, ends_.planes(), step.dt, step.farthest, reads_all(step));
     return 0;
   }
   void apply_forces(dem::Particles &particles, const Step &step) override {
-    skin_.add_forces(particles, asked_, step.dt);
+    skin_.add_forces(particles, prescribed_, step.dt);
   }
   void add_energy(dem::EnergyLedger &energy) const override { energy.boundary += skin_.work(); }
   double pressure() const override { return skin_.pressure(); }
-  double confined_share() const override { return skin_.loaded_share(); }
+  double confined_fraction() const override { return skin_.loaded_fraction(); }
   std::optional<std::vector<int>> rows_read() const override { return skin_.particles(); }
   bool reads_all(const Step &step) const override { return step.number % steps_between_skins == 0; }
   long lists_made() const override { return skin_.lists_made(); }
@@ -45,7 +45,7 @@ private:
   const dem::Bonds *bonds_;
   EndPlatens ends_;
   dem::Confinement skin_;
-  double asked_ = 0; // Pa
+  double prescribed_ = 0; // Pa
 };
 
 // A stiff frictionless wall around the specimen, at rest: it keeps the lateral strain at zero.

@@ -17,7 +17,7 @@ constexpr int parts = 8;
 
 // A contact between two moving sides: k (a - b)^2 <= k (1 + s) a^2 + k (1 + 1/s) b^2, so that each side may
 // be treated by itself.
-constexpr double share_of_body = 0.25;
+constexpr double fraction_of_body = 0.25;
 
 // Contact of a platen with its neighbours is checked after so many steps: it moves by far less.
 constexpr long steps_between_edges = 100;
@@ -53,7 +53,7 @@ void MeanLoads::describe(Archive &archive) {
 
 MeanPlace::MeanPlace(const fem::SurfaceMesh &surface, const FaceOf &face, const Vector3 &direction)
     : direction_(direction) {
-  std::vector<double> part(surface.vertices.size(), 0.0), whole(part);
+  std::vector<double> part(surface.vertices.size(), 0.0), full(part);
   double covered = 0, all = 0;
   for (std::size_t f = 0; f < surface.faces.size(); ++f) {
     if (surface.face_tags[f] != face.tag) continue;
@@ -68,7 +68,7 @@ MeanPlace::MeanPlace(const fem::SurfaceMesh &surface, const FaceOf &face, const 
       const bool inside = face.covers(place);
       for (std::size_t c = 0; c < 4; ++c) {
         const std::size_t v = static_cast<std::size_t>(corners[c]);
-        whole[v] += weights[c] * area;
+        full[v] += weights[c] * area;
         if (inside) part[v] += weights[c] * area;
       }
       all += area;
@@ -76,11 +76,11 @@ MeanPlace::MeanPlace(const fem::SurfaceMesh &surface, const FaceOf &face, const 
     }
   }
   if (!(all > 0)) throw std::invalid_argument("mean place: no face has the tag " + std::to_string(face.tag));
-  const std::vector<double> &area = covered > 0 ? part : whole;
+  const std::vector<double> &area = covered > 0 ? part : full;
   for (std::size_t v = 0; v < area.size(); ++v) {
     if (area[v] == 0) continue;
     vertices_.push_back(static_cast<int>(v));
-    shares_.push_back(area[v] / (covered > 0 ? covered : all));
+    weights_.push_back(area[v] / (covered > 0 ? covered : all));
   }
   start_ = now(surface);
 }
@@ -88,7 +88,7 @@ MeanPlace::MeanPlace(const fem::SurfaceMesh &surface, const FaceOf &face, const 
 double MeanPlace::now(const fem::SurfaceMesh &surface) const {
   double mean = 0;
   for (std::size_t k = 0; k < vertices_.size(); ++k)
-    mean += shares_[k] * dot(surface.vertices[static_cast<std::size_t>(vertices_[k])], direction_);
+    mean += weights_[k] * dot(surface.vertices[static_cast<std::size_t>(vertices_[k])], direction_);
   return mean;
 }
 
@@ -124,10 +124,10 @@ void Platen::finish(const Step &step) {
   force_ = body_->total_force();
   forces_ = before + force_;
   if (machine_) finish_on_spring(step);
-  if (step.number % steps_between_edges != 0 || closure() < room_) return;
+  if (step.number % steps_between_edges != 0 || closure() < clearance_) return;
   throw NumericsStopped("the platen " + name() + " has closed by " + text_of(closure()) + " m at " +
                         text_of(step.time) + " s and meets the edges of its neighbours; try a larger " +
-                        "`platens.edge_gap` than " + text_of(room_) + " m");
+                        "`platens.edge_gap` than " + text_of(clearance_) + " m");
 }
 
 bool Platen::is_finite() const {
@@ -152,7 +152,7 @@ double Platen::seconds_on_spring(const fem::VertexSprings &shared) const {
   return machine_->stable_step(sum(shared.stiffness), sum(shared.dashpot));
 }
 
-std::vector<dem::GroundSpring> Platen::whole_springs(const dem::Particles &particles) {
+std::vector<dem::GroundSpring> Platen::total_springs(const dem::Particles &particles) {
   layer_.make_list(particles, *body_);
   return layer_.ground_springs(particles, *body_, true);
 }
@@ -161,9 +161,9 @@ void Platen::add_shared_springs(const dem::Particles &particles, std::vector<dem
   const std::size_t first = springs.size();
   Platen::add_springs(particles, springs);
   for (std::size_t k = first; k < springs.size(); ++k) {
-    springs[k].normal_stiffness *= 1 + share_of_body;
-    springs[k].tangential_stiffness *= 1 + share_of_body;
-    if (glued()) springs[k].rotational_stiffness *= 1 + share_of_body;
+    springs[k].normal_stiffness *= 1 + fraction_of_body;
+    springs[k].tangential_stiffness *= 1 + fraction_of_body;
+    if (glued()) springs[k].rotational_stiffness *= 1 + fraction_of_body;
   }
 }
 
@@ -171,7 +171,7 @@ fem::VertexSprings Platen::shared_springs(const dem::Particles &particles) const
   fem::VertexSprings springs = layer_.vertex_springs(particles, *body_);
   for (std::vector<double> *column : {&springs.stiffness, &springs.dashpot})
     for (double &number : *column)
-      number *= 1 + 1 / share_of_body;
+      number *= 1 + 1 / fraction_of_body;
   return springs;
 }
 
@@ -222,9 +222,10 @@ StepLimit DynamicPlaten::limit(const dem::Particles &particles) const {
   fem::VertexSprings springs = shared_springs(particles);
   if (!machine_) return {body_->stable_step(springs), reason_of_limit()};
   springs.clamp = machine_->settings().stiffness;
-  // Squared frequencies add at most, of the body's own motion and of that on the spring; dashpots too.
-  const double own = body_->stable_step(springs), whole = seconds_on_spring(springs);
-  return {1 / (1 / own + 1 / whole), reason_of_limit() + ", on the spring of the machine"};
+  // The squared frequencies of the body's own motion and of its motion on the spring add up at most, and so
+  // do the dashpots.
+  const double own = body_->stable_step(springs), on_machine = seconds_on_spring(springs);
+  return {1 / (1 / own + 1 / on_machine), reason_of_limit() + ", on the spring of the machine"};
 }
 
 void DynamicPlaten::add_energy(dem::EnergyLedger &energy) const {

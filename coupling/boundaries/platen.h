@@ -54,8 +54,8 @@ public:
 private:
   Vector3 direction_{};
   std::vector<int> vertices_;
-  std::vector<double> shares_; // sum 1
-  double start_ = 0;           // m
+  std::vector<double> weights_; // sum 1
+  double start_ = 0;            // m
 };
 
 class Platen : public ContactBoundary {
@@ -92,7 +92,7 @@ public:
   using ContactBoundary::layer;
   using ContactBoundary::surface;
   // m, closure at which its face touches the edges of its neighbours: the run stops there.
-  void set_room(double room) { room_ = room; }
+  void set_clearance(double clearance) { clearance_ = clearance; }
   // N m, its contribution to the bending moment of a bar along x at x = 0, about the height z (m); positive:
   // tension on the lower side.
   double midspan_moment(double z) const;
@@ -101,7 +101,7 @@ public:
   virtual double seconds_behind() const { return 0; }
   bool glued() const { return layer_.parameters().attachment == Attachment::glued; }
   // Springs of the particles near it, from a rebuilt list, in row order, with the indentations of its mesh.
-  std::vector<dem::GroundSpring> whole_springs(const dem::Particles &particles);
+  std::vector<dem::GroundSpring> total_springs(const dem::Particles &particles);
 
 protected:
   double farthest(const Step &) const override { return body_->last_move(); }
@@ -128,7 +128,7 @@ protected:
   Vector3 force_{};  // N, of the last step
   Vector3 forces_{}; // N, at the start plus at the end of its drift
   std::optional<MachineSpring> machine_;
-  double room_ = std::numeric_limits<double>::infinity();
+  double clearance_ = std::numeric_limits<double>::infinity();
 };
 
 // A platen that keeps its shape. The machine does the work of its loads; on a spring the machine moves the

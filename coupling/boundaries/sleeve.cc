@@ -181,9 +181,9 @@ double Sleeve::axial_force_beyond_pressure() const {
   return 0.5 * (bottom - top) - pressure() * ring_;
 }
 
-double Sleeve::confined_share() const {
+double Sleeve::confined_fraction() const {
   if (!(pressure() > 0)) return std::numeric_limits<double>::quiet_NaN();
-  if (!std::isnan(share_read_)) return share_read_;
+  if (!std::isnan(fraction_read_)) return fraction_read_;
   const fem::SurfaceMesh &inner = solid_->surface();
   std::vector<char> bears(inner.faces.size(), 0);
   contact_->visit_contacts([&](int face, const Vector3 &) { bears[static_cast<std::size_t>(face)] = 1; });
@@ -268,8 +268,8 @@ void Sleeve::turn_top_rim(double interval, double dt, const RimMotion &rims) {
     const Vector3 now = solid_->node_place(top_rim_nodes_[k]);
     Vector3 there = middle + rotate(turned, top_rim_places_[k]);
     if (!settings_.bonded_rims) {
-      const Vector3 beside = now - middle;
-      there = {now.x, now.y, middle.z - (normal.x * beside.x + normal.y * beside.y) / normal.z};
+      const Vector3 offset = now - middle;
+      there = {now.x, now.y, middle.z - (normal.x * offset.x + normal.y * offset.y) / normal.z};
     }
     velocities[k] = (1 / interval) * (there - now);
   }
@@ -287,7 +287,7 @@ void Sleeve::move(double dt, const RimMotion &rims) {
 
 // The loads of the last step are still on the surface.
 void Sleeve::take_loads() {
-  share_read_ = std::numeric_limits<double>::quiet_NaN();
+  fraction_read_ = std::numeric_limits<double>::quiet_NaN();
   if (made_ < planned_) return;
   solid_->drift(elapsed_, planned_ > 1); // checked when the interval began
   solid_->update_forces();
@@ -318,9 +318,9 @@ void Sleeve::describe(Archive &archive) {
     throw StateError(std::string("the sleeve of the state is inside out: ") + e.what());
   }
   archive.part("contacts", *contact_);
-  double share = archive.writes() ? confined_share() : 0;
-  archive("confined_share", share, "1", std::numeric_limits<double>::quiet_NaN(), or_nan(between(0, 1)));
-  if (archive.reads()) share_read_ = share;
+  double fraction = archive.writes() ? confined_fraction() : 0;
+  archive("confined_share", fraction, "1", std::numeric_limits<double>::quiet_NaN(), or_nan(between(0, 1)));
+  if (archive.reads()) fraction_read_ = fraction;
   if (archive.reads() && made_ < planned_) solid_->place_surface_ahead(elapsed_);
 }
 

@@ -104,7 +104,7 @@ public:
   double pressure() const override { return solid_->pressure(fem::mantle_tag); }
   // Fraction of the area of its inner face: the elements that press on a sphere. The rubber transfers the
   // pressure to these. NaN without a pressure, because no element presses then.
-  double confined_share() const override;
+  double confined_fraction() const override;
   std::string series() const override { return "sleeve"; }
   fem::Picture picture() const override { return with_loads().picture(contact_->vertex_slip(*solid_)); }
   const ContactLayer &layer() const override { return *contact_; }
@@ -172,7 +172,7 @@ private:
   double own_limit_ = 0;                // s, of the elements alone, computed now and then
   double intervals_ = 0, cuts_ = 0;     // since the start
   // Of a state that was just read, until a step finds which elements press; else NaN.
-  double share_read_ = std::numeric_limits<double>::quiet_NaN();
+  double fraction_read_ = std::numeric_limits<double>::quiet_NaN();
 };
 
 } // namespace platen::coupling

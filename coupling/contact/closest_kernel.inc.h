@@ -192,14 +192,14 @@ void PLATEN_SET_FACES(const Vector3 *vertex, const int *corners, const int *numb
       q[corner] = dem::kernels::to_vectors(rows);
     }
     FaceOfCorners<Simd> face;
-    const unsigned whole = dem::kernels::bits_of(set_face<dem::kernels::OfLanes>(q, face));
+    const unsigned valid = dem::kernels::bits_of(set_face<dem::kernels::OfLanes>(q, face));
     MovingFace *to[lanes];
     for (int l = 0; l < lanes; ++l)
       to[l] = moving + faces[l];
     const int many = static_cast<int>(count - first < lanes ? count - first : lanes);
     scatter(face, many, to);
     for (int l = 0; l < many; ++l) {
-      if (whole >> l & 1u) continue;
+      if (valid >> l & 1u) continue;
       const int *c = corners + 4 * faces[l];
       *to[l] = moving_face({vertex[c[0]], vertex[c[1]], vertex[c[2]], vertex[c[3]]});
     }

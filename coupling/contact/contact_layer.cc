@@ -245,7 +245,7 @@ double ContactLayer::indentation(int face, const std::array<double, 4> &w) const
 
 double ContactLayer::spring(int face, const std::array<double, 4> &weights) const {
   if (parameters_.face_compliance.empty()) return stiffness_;
-  return beside_indentation<dem::OfScalars>(stiffness_, indentation(face, weights));
+  return in_series_with_indentation<dem::OfScalars>(stiffness_, indentation(face, weights));
 }
 
 double ContactLayer::stiffness_of(double radius) const {
@@ -265,13 +265,13 @@ double ContactLayer::seat_stiffness(double radius) const {
 }
 
 double ContactLayer::stiffest_spring(int face, double radius) const {
-  const double whole = stiffness_of(radius);
-  if (parameters_.face_compliance.empty()) return whole;
+  const double total = stiffness_of(radius);
+  if (parameters_.face_compliance.empty()) return total;
   // w^T C w is convex, so that no point of the face is softer than the worst of its corners; where that is
   // more than can be taken out, another point is the stiffest.
   const fem::FaceCompliance &c = parameters_.face_compliance[index(face)];
-  return beside_indentation<dem::OfScalars>(
-      whole, std::min(most_indentation / whole, std::max({c[0][0], c[1][1], c[2][2], c[3][3]})));
+  return in_series_with_indentation<dem::OfScalars>(
+      total, std::min(most_indentation / total, std::max({c[0][0], c[1][1], c[2][2], c[3][3]})));
 }
 
 std::size_t ContactLayer::bytes() const {
@@ -281,7 +281,7 @@ std::size_t ContactLayer::bytes() const {
 
 std::vector<dem::GroundSpring> ContactLayer::ground_springs(const dem::Particles &particles,
                                                             const fem::LoadedSurface &body,
-                                                            bool whole) const {
+                                                            bool with_mesh) const {
   std::vector<dem::GroundSpring> springs;
   for (std::size_t row = 0; row < search_.particles().size(); ++row) {
     const int i = search_.particles()[row];
@@ -291,7 +291,7 @@ std::vector<dem::GroundSpring> ContactLayer::ground_springs(const dem::Particles
     spring.particle = i;
     spring.normal = at.normal;
     spring.arm = at.local.point;
-    spring.normal_stiffness = whole ? stiffness_of(r) : stiffest_spring(at.face, r);
+    spring.normal_stiffness = with_mesh ? stiffness_of(r) : stiffest_spring(at.face, r);
     spring.gap = at.distance - r - (row < table_.size() ? offset_[row] : 0.0);
     if (spring_ != nullptr) spring.tangential_stiffness = tangential_ratio() * spring.normal_stiffness;
     if (seat_spring_ != nullptr && row < table_.size() && seated_[row])
@@ -314,8 +314,8 @@ fem::VertexSprings ContactLayer::vertex_springs(const dem::Particles &particles,
     // Glued grains give moments without a limit, as forces along the normal on the corners: K = k b b^T for
     // each axis, with b = +- 1 / (2 h) across a width h, so that no row of both has a sum above k / h^2.
     const double h = narrowest(body.surface(), at.face);
-    const bool held = seat_spring_ != nullptr && row < table_.size() && tied(row);
-    const double rocking = held ? seat_stiffness(r) / (h * h) : 0;
+    const bool glued = seat_spring_ != nullptr && row < table_.size() && tied(row);
+    const double rocking = glued ? seat_stiffness(r) / (h * h) : 0;
     for (std::size_t corner = 0; corner < 4; ++corner) {
       const std::size_t v = index(body.surface().faces[index(at.face)][corner]);
       springs.stiffness[v] += at.local.weights[corner] * stiffest + rocking;

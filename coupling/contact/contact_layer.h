@@ -151,9 +151,9 @@ public:
   std::size_t closed = 0;   // contacts in the last add_forces
 
   // Springs of all particles near the surface: for the stable step with the largest stiffness anywhere on the
-  // face, for equilibria (`whole`) with the indentation of the mesh.
+  // face, for equilibria (`with_mesh`) including the indentation of the mesh.
   std::vector<dem::GroundSpring> ground_springs(const dem::Particles &particles,
-                                                const fem::LoadedSurface &body, bool whole = false) const;
+                                                const fem::LoadedSurface &body, bool with_mesh = false) const;
   // Springs of the same particles on each vertex of the surface.
   fem::VertexSprings vertex_springs(const dem::Particles &particles, const fem::Body &body) const;
   // The resistance to a servo: all particles near the surface, touching or not.

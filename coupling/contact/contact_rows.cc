@@ -255,11 +255,11 @@ double ContactLayer::tangential_spring(std::size_t row, const Kinematics &motion
   if (!result.active) return before;
   const double now = result.tangential_stiffness = parameters_.hertz->tangential_ratio * motion.k_n;
   if (!(before > 0)) return now;
-  const double held = 0.5 * norm_squared(spring) / before;
+  const double stored = 0.5 * norm_squared(spring) / before;
   const Vector3 seen = spring;
   if (now < before) spring *= now / before;
   const double left = now > 0 ? 0.5 * norm_squared(spring) / now : 0;
-  result.friction_loss += held - left + 0.5 * dot(seen - spring, stretch);
+  result.friction_loss += stored - left + 0.5 * dot(seen - spring, stretch);
   return now;
 }
 

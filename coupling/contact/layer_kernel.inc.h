@@ -96,7 +96,7 @@ PLATEN_INLINE Simd stiffness_at(const LayerSurface &surface, double stiffness, c
   }
   const Rotation<Simd> c[4] = {dem::kernels::first_columns(above), dem::kernels::second_columns(above),
                                dem::kernels::first_columns(below), dem::kernels::second_columns(below)};
-  return beside_indentation<How>(Simd(stiffness), indentation_of(weights, c));
+  return in_series_with_indentation<How>(Simd(stiffness), indentation_of(weights, c));
 }
 
 struct Push {
@@ -152,13 +152,13 @@ PLATEN_INLINE Push push_lanes(const LayerColumns &c, const LayerSurface &surface
   const Simd opening = dot(v, p.normal);
   const Triple<Simd> slide = v - scale(opening, p.normal);
   const Simd pressing = -k_n * gap;
-  Simd held = pressing;
+  Simd damped = pressing;
   if (s.damping > 0)
-    held =
+    damped =
         pressing - Simd(2 * s.damping) * How::root(Simd(s.stiffness) * gather(c.mass, r.particle)) * opening;
-  held = How::choose(How::above(held, zero), held, zero);
-  push.normal_force = How::choose(push.active, held, zero);
-  const Simd dashpot = How::choose(push.active, held - pressing, zero), before = read(c.dashpot, r);
+  damped = How::choose(How::above(damped, zero), damped, zero);
+  push.normal_force = How::choose(push.active, damped, zero);
+  const Simd dashpot = How::choose(push.active, damped - pressing, zero), before = read(c.dashpot, r);
   push.elastic = How::choose(push.active, Simd(0.5) * k_n * gap * gap, zero);
   push.damping_loss = Simd(-0.5) * (before + dashpot) * opening * dt;
   write(c.dashpot, r, dashpot);
@@ -178,8 +178,9 @@ PLATEN_INLINE void keep(const Rows &r, const Points &p, const Rotation<Simd> &we
                         const LayerResults &results, std::size_t first) {
   const Triple<Simd> force = scale(push.normal_force, p.normal) + push.shear;
   const Triple<Simd> &point = p.place;
-  dem::kernels::Row forces[lanes], torques[lanes], sums[lanes], places[lanes], normals[lanes], shares[lanes];
-  dem::kernels::to_rows(weights, shares);
+  dem::kernels::Row forces[lanes], torques[lanes], sums[lanes], places[lanes], normals[lanes],
+      corner_weights[lanes];
+  dem::kernels::to_rows(weights, corner_weights);
   dem::kernels::to_rows(force, forces);
   const Triple<Simd> torque = cross(p.arm, force);
   dem::kernels::to_rows(Rotation<Simd>{torque.x, torque.y, torque.z, push.normal_force}, torques);
@@ -194,7 +195,7 @@ PLATEN_INLINE void keep(const Rows &r, const Points &p, const Rotation<Simd> &we
     load[l].particle = active >> l & 1u ? r.particle[l] : -1;
     load[l].face = r.face[l];
     dem::kernels::store_row(&load[l].force.x, forces[l]);
-    dem::kernels::store_row(load[l].weights.data(), shares[l]);
+    dem::kernels::store_row(load[l].weights.data(), corner_weights[l]);
     dem::kernels::store_row(&results.torque[first + static_cast<std::size_t>(l)].torque.x, torques[l]);
     dem::kernels::store_row(&results.work[first + static_cast<std::size_t>(l)].elastic, sums[l]);
     dem::kernels::store_row(&contact[l].point.x, places[l]);

@@ -23,10 +23,10 @@ PLATEN_INLINE Real indentation_of(const dem::Rotation<Real> &w, const dem::Rotat
 
 // N/m, of the spring that gives this stiffness in series with an indentation (m/N).
 template <class How, class Real>
-PLATEN_INLINE Real beside_indentation(const Real &stiffness, const Real &indentation) {
-  const Real one = Real(1.0), most = Real(most_indentation), share = stiffness * indentation;
-  const Real taken_out = How::choose(How::above(share, most), most, share);
-  const Real grown = one / (one - taken_out), answer = Real(most_answer) / share;
+PLATEN_INLINE Real in_series_with_indentation(const Real &stiffness, const Real &indentation) {
+  const Real one = Real(1.0), most = Real(most_indentation), fraction = stiffness * indentation;
+  const Real taken_out = How::choose(How::above(fraction, most), most, fraction);
+  const Real grown = one / (one - taken_out), answer = Real(most_answer) / fraction;
   const Real limit = How::choose(How::above(answer, one), answer, one);
   return stiffness * How::choose(How::above(grown, limit), limit, grown);
 }

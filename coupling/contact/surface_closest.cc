@@ -165,7 +165,7 @@ SurfacePoint SurfaceSearch::closest_listed(const SurfaceMesh &surface, std::size
   SurfacePoint best, found;
   best.local.distance_squared = std::numeric_limits<double>::infinity();
   double best_distance = best.local.distance_squared;
-  bool whole = false;
+  bool complete = false; // the normal is computed too
   MovingFace made;
   for (std::size_t n = first_near_[k]; n < first_near_[k + 1]; ++n) {
     const int face = near_[n].face;
@@ -180,30 +180,30 @@ SurfacePoint SurfaceSearch::closest_listed(const SurfaceMesh &surface, std::size
                                              : box_distance_squared(face_corners(surface, face, centre));
       if (least > best.local.distance_squared * (1 + margin)) continue;
     }
-    const bool found_whole = nearest_on(surface, face, centre, moving, found);
+    const bool found_complete = nearest_on(surface, face, centre, moving, found);
     if (preference(found.local) > preference(best.local)) continue;
     if (preference(found.local) == preference(best.local) && face > best.face) continue;
     best = found;
-    whole = found_whole;
+    complete = found_complete;
     best_distance = std::sqrt(found.local.distance_squared);
   }
-  return whole ? best : with_normal(surface, best.face, best.local, centre);
+  return complete ? best : with_normal(surface, best.face, best.local, centre);
 }
 
 SurfacePoint SurfaceSearch::closest_of_all(const SurfaceMesh &surface, const Vector3 &centre) const {
   SurfacePoint best, found;
   best.local.distance_squared = std::numeric_limits<double>::infinity();
-  bool whole = false;
+  bool complete = false; // the normal is computed too
   for (int face = 0; face < static_cast<int>(surface.faces.size()); ++face) {
     const MovingFace moving =
         surface.only_shifted ? MovingFace{} : moving_face(face_corners(surface, face, {}));
-    const bool found_whole =
+    const bool found_complete =
         nearest_on(surface, face, centre, surface.only_shifted ? nullptr : &moving, found);
     if (!(preference(found.local) < preference(best.local))) continue;
     best = found;
-    whole = found_whole;
+    complete = found_complete;
   }
-  return whole ? best : with_normal(surface, best.face, best.local, centre);
+  return complete ? best : with_normal(surface, best.face, best.local, centre);
 }
 
 // Inside or outside: on a face its normal decides; on an edge or vertex the sum of the normals around it,

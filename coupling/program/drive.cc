@@ -12,7 +12,7 @@ Drive::Drive(const Parameters &parameters) : parameters_(parameters) {
   if (parameters.rate_control) rate_control_.emplace(*parameters.rate_control);
 }
 
-void Drive::ask(double rate, double ramp, const Measures &m, double begun) {
+void Drive::set_rate(double rate, double ramp, const Measures &m, double begun) {
   if (!(rate != 0)) throw std::invalid_argument("drive: a rate of nothing");
   const double sign = rate > 0 ? 1 : -1;
   if (until_ == m.time()) {
@@ -27,8 +27,8 @@ void Drive::ask(double rate, double ramp, const Measures &m, double begun) {
 }
 
 void Drive::change_rate(double rate, const Measures &m) {
-  if (!(rate > 0) || !is_asked()) throw std::invalid_argument("drive: a rate of nothing");
-  ask(std::copysign(rate, rate_), ramp_, m, begun_); // continues from its present speed
+  if (!(rate > 0) || !is_driven()) throw std::invalid_argument("drive: a rate of nothing");
+  set_rate(std::copysign(rate, rate_), ramp_, m, begun_); // continues from its present speed
 }
 
 double Drive::speed(const Measures &m) {
@@ -69,24 +69,24 @@ void Drive::describe(Archive &archive) {
 }
 
 void RateTask::begin(const Measures &m, double begun, const Transfer &) {
-  drive_->ask(rate_, ramp_, m, begun);
+  drive_->set_rate(rate_, ramp_, m, begun);
   begun_ = begun, path_ = 0;
   closure_found_ = drive_->platens().closure(m);
 }
 
-void RateTask::command(const Measures &m, Commands &asked) {
+void RateTask::command(const Measures &m, Commands &commands) {
   const double speed = drive_->speed(m);
   path_ += static_cast<double>(drive_->platens().places.size()) * speed * m.time_step();
-  drive_->platens().move(m, speed, asked);
+  drive_->platens().move(m, speed, commands);
 }
 
 std::optional<Controlled> RateTask::controlled(const Measures &m) const {
   const double passed = m.time() - begun_;
   if (!(passed > 0) || std::isnan(path_)) return std::nullopt; // a state from a version without the path
   Controlled c{"rate", side_, "m/s", drive_->platens().axis};
-  c.asked = path_ / passed;
+  c.target = path_ / passed;
   c.reached = (drive_->platens().closure(m) - closure_found_) / passed;
-  c.whole = std::abs(c.asked);
+  c.reference = std::abs(c.target);
   return c;
 }
 

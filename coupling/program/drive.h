@@ -25,11 +25,11 @@ public:
 
   // Sets the closure rate (m/s, of all platens together, not 0) for a stage that begins at `begun` (s);
   // reached within `ramp` (s; 0: at once).
-  void ask(double rate, double ramp, const Measures &m, double begun);
+  void set_rate(double rate, double ramp, const Measures &m, double begun);
   // Between two steps: sets another magnitude of the rate (m/s, positive) from the next step on, in the
   // present direction, reached linearly within the ramp. Throws std::invalid_argument where no rate was set.
   void change_rate(double rate, const Measures &m);
-  bool is_asked() const { return rate_ != 0; }
+  bool is_driven() const { return rate_ != 0; }
   // Of the current step: m/s, of each platen, inward.
   double speed(const Measures &m);
   void update(const Measures &m); // after forces
@@ -59,7 +59,7 @@ public:
   RateTask(std::shared_ptr<Drive> drive, double rate, double ramp, std::string side = "axial")
       : drive_(std::move(drive)), rate_(rate), ramp_(ramp), side_(std::move(side)) {}
   void begin(const Measures &m, double begun, const Transfer &) override;
-  void command(const Measures &m, Commands &asked) override;
+  void command(const Measures &m, Commands &commands) override;
   void update(const Measures &m) override { drive_->update(m); }
   // The mean rates of the stage: of the machine, and of the faces.
   std::optional<Controlled> controlled(const Measures &m) const override;

@@ -17,9 +17,9 @@ void LoadingStage::on_begin(const Measures &m, const Transfer &from) {
   end_.begin(m, from);
 }
 
-void LoadingStage::command(const Measures &m, Commands &asked) {
+void LoadingStage::command(const Measures &m, Commands &commands) {
   for (const auto &task : tasks_)
-    task->command(m, asked);
+    task->command(m, commands);
 }
 
 void LoadingStage::update(const Measures &m) {
@@ -45,8 +45,8 @@ void LoadingStage::end(const Measures &m) {
     if (!one) continue;
     if (until != nullptr && until->what == Until::Reached::stress && one->unit == Controlled::pascal &&
         one->axis == until->of.axis)
-      one->asked = until->value, one->whole = std::abs(until->value);
-    at_end_[k] = {true, one->asked, one->reached, one->whole};
+      one->target = until->value, one->reference = std::abs(until->value);
+    at_end_[k] = {true, one->target, one->reached, one->reference};
   }
 }
 
@@ -68,9 +68,10 @@ std::vector<Controlled> LoadingStage::controls(const Measures &m) const {
   std::vector<Controlled> all;
   for (std::size_t k = 0; k < tasks_.size(); ++k) {
     std::optional<Controlled> one = tasks_[k]->controlled(m);
-    if (!one || (ended_by_ != 0 && !at_end_[k].told)) continue;
+    if (!one || (ended_by_ != 0 && !at_end_[k].reported)) continue;
     if (ended_by_ != 0)
-      one->asked = at_end_[k].asked, one->reached = at_end_[k].reached, one->whole = at_end_[k].whole;
+      one->target = at_end_[k].target, one->reached = at_end_[k].reached,
+      one->reference = at_end_[k].reference;
     all.push_back(*one);
   }
   return all;
@@ -104,10 +105,10 @@ double LoadingStage::fastest() const {
 }
 
 void LoadingStage::AtEnd::describe(Archive &archive) {
-  archive("told_at_end", told, "1", false);
-  archive("asked_at_end", asked, "1", 0.0);
+  archive("told_at_end", reported, "1", false);
+  archive("asked_at_end", target, "1", 0.0);
   archive("reached_at_end", reached, "1", 0.0);
-  archive("whole_at_end", whole, "1", 0.0);
+  archive("whole_at_end", reference, "1", 0.0);
 }
 
 void LoadingStage::describe(Archive &archive) {

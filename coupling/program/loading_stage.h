@@ -25,7 +25,7 @@ public:
   LoadingStage(Parameters parameters, std::vector<std::unique_ptr<Task>> tasks, StageEnd end);
 
   std::string name() const override { return parameters_.name; }
-  void command(const Measures &m, Commands &asked) override;
+  void command(const Measures &m, Commands &commands) override;
   void update(const Measures &m) override;
   bool has_ended(const Measures &m) const override { return reached(m) != 0; }
   void end(const Measures &m) override;
@@ -46,8 +46,8 @@ protected:
 
 private:
   struct AtEnd { // of a task, as in Controlled
-    bool told = false;
-    double asked = 0, reached = 0, whole = 0;
+    bool reported = false;
+    double target = 0, reached = 0, reference = 0;
     void describe(Archive &archive);
   };
   int reached(const Measures &m) const; // as StageEnd::reached

@@ -11,16 +11,16 @@ namespace {
 // At gain 1 a step moves the platen by at most this fraction of the displacement that closes the error, at
 // gain 10 and above by ten times as much: still below the limit of stability (2) and of overshoot (1/4, with
 // the piston's mass below).
-constexpr double share_per_step = 0.02, largest_share = 10 * share_per_step;
+constexpr double fraction_per_step = 0.02, largest_fraction = 10 * fraction_per_step;
 // Fraction of the new velocity in a step: the piston's mass is c dt (1 - b)/b. It prevents fast oscillations
 // of the velocity by dashpots in the contacts, whose force follows the velocity at once.
 constexpr double smoothing = 0.5;
 
-// Of the steepest secant: a smaller slope is failure.
-constexpr double elastic_share = 0.8;
-// Of all bonds, broken in a transit: a larger fraction is failure.
-constexpr double breaking_share = 5e-5;
-// Between two slopes: in one transit stress rises by no more than the inertial stress of starting platens.
+// Fraction of the steepest secant; a smaller slope counts as failure.
+constexpr double elastic_fraction = 0.8;
+// Fraction of all bonds; if a larger one breaks within a transit, this counts as failure.
+constexpr double breaking_fraction = 5e-5;
+// Transits between two slopes; in one alone, stress rises by no more than the inertia of starting platens.
 constexpr double transits_of_slope = 5;
 // Time for which the platens keep to their speed at first, and after a check that has found failure.
 constexpr double transits_of_care = 10;
@@ -36,16 +36,16 @@ Servo::Servo(const Parameters &parameters) : parameters_(parameters) {
 
 double Servo::dashpot(const ServoLoad &load, double dt) const {
   const double gain = parameters_.gain;
-  const double least = load.stiffness * dt / std::min(share_per_step, largest_share / gain);
+  const double least = load.stiffness * dt / std::min(fraction_per_step, largest_fraction / gain);
   return std::max(impedances * load.impedance, least) / gain;
 }
 
 double Servo::velocity(double wanted, double reaction, const ServoLoad &load, double dt) {
   const double error = wanted - reaction, limit = parameters_.velocity_limit,
                dashpot = this->dashpot(load, dt);
-  double aim = dashpot > 0 ? error / dashpot : (error > 0 ? limit : (error < 0 ? -limit : 0.0));
-  aim = std::clamp(aim, -limit, limit);
-  velocity_ += smoothing * (aim - velocity_);
+  double target = dashpot > 0 ? error / dashpot : (error > 0 ? limit : (error < 0 ? -limit : 0.0));
+  target = std::clamp(target, -limit, limit);
+  velocity_ += smoothing * (target - velocity_);
   return velocity_;
 }
 
@@ -62,9 +62,9 @@ RateControl::RateControl(const Parameters &parameters) : parameters_(parameters)
 }
 
 double RateControl::factor(double time, double dt) {
-  const double aim = careful_until_ < 0 || time < careful_until_ ? 1.0 : parameters_.multiplier;
+  const double target = careful_until_ < 0 || time < careful_until_ ? 1.0 : parameters_.multiplier;
   const double most = (parameters_.multiplier - 1) * dt / parameters_.ramp;
-  factor_ += std::clamp(aim - factor_, -slowing * most, most);
+  factor_ += std::clamp(target - factor_, -slowing * most, most);
   return factor_;
 }
 
@@ -77,13 +77,13 @@ void RateControl::update(double time, double stress, double closure, double brok
   }
   if (time < next_check_) return;
   next_check_ = time + parameters_.transit;
-  bool elastic = broken - broken_ <= breaking_share * parameters_.bonds;
+  bool elastic = broken - broken_ <= breaking_fraction * parameters_.bonds;
   broken_ = broken;
   if (time >= next_slope_) {
     next_slope_ = time + transits_of_slope * parameters_.transit;
     const double secant = (stress - first_stress_) / (closure - first_closure_);
     if (std::isfinite(secant)) steepest_ = std::max(steepest_, secant);
-    elastic = elastic && (stress - stress_) / (closure - closure_) >= elastic_share * steepest_;
+    elastic = elastic && (stress - stress_) / (closure - closure_) >= elastic_fraction * steepest_;
     stress_ = stress;
     closure_ = closure;
   }

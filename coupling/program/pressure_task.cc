@@ -21,21 +21,21 @@ double ahead(double once, double twice) {
 
 void PressureTask::begin(const Measures &m, double begun, const Transfer &from) {
   begun_ = begun;
-  found_ = from.asked.empty() ? 0.0 : from.asked.at(parameters_.place).pressure;
+  found_ = from.commands.empty() ? 0.0 : from.commands.at(parameters_.place).pressure;
   if (parameters_.path != 0) deviator_ = (found_ - parameters_.value) / parameters_.path;
   if (parameters_.followed) followed_ = parameters_.followed->stress(m);
   deviator_again_ = deviator_;
   followed_again_ = followed_;
 }
 
-void PressureTask::command(const Measures &m, Commands &asked) {
-  const double aim =
+void PressureTask::command(const Measures &m, Commands &commands) {
+  const double target =
       parameters_.followed ? parameters_.value * ahead(followed_, followed_again_) : parameters_.value;
   const double x = parameters_.ramp > 0 ? (m.time() - begun_) / parameters_.ramp : 1;
-  const bool on_the_way = x < 1 && parameters_.path == 0;
-  double pressure = on_the_way ? found_ + smooth_start(x) * (aim - found_) : aim;
+  const bool in_ramp = x < 1 && parameters_.path == 0;
+  double pressure = in_ramp ? found_ + smooth_start(x) * (target - found_) : target;
   if (parameters_.path != 0) pressure += parameters_.path * ahead(deviator_, deviator_again_);
-  asked[parameters_.place].pressure = std::max(0.0, pressure);
+  commands[parameters_.place].pressure = std::max(0.0, pressure);
 }
 
 void PressureTask::update(const Measures &m) {
@@ -53,25 +53,25 @@ void PressureTask::update(const Measures &m) {
 
 namespace {
 
-Controlled pressure_around(const std::string &quantity, double asked, double found, const Measures &m) {
+Controlled pressure_around(const std::string &quantity, double target, double found, const Measures &m) {
   Controlled c{quantity, "lateral", Controlled::pascal, Controlled::around};
-  c.asked = asked, c.reached = m.lateral_pressure();
-  c.whole = asked > 0 ? asked : found;
+  c.target = target, c.reached = m.lateral_pressure();
+  c.reference = target > 0 ? target : found;
   return c;
 }
 
 } // namespace
 
 std::optional<Controlled> PressureTask::controlled(const Measures &m) const {
-  double asked = parameters_.value;
-  if (parameters_.followed) asked *= parameters_.followed->stress(m);
-  if (parameters_.path != 0) asked += parameters_.path * (m.axial_stress() - m.lateral_pressure());
-  return pressure_around(parameters_.quantity, std::max(0.0, asked), found_, m);
+  double target = parameters_.value;
+  if (parameters_.followed) target *= parameters_.followed->stress(m);
+  if (parameters_.path != 0) target += parameters_.path * (m.axial_stress() - m.lateral_pressure());
+  return pressure_around(parameters_.quantity, std::max(0.0, target), found_, m);
 }
 
 std::optional<Controlled> HoldPressureTask::controlled(const Measures &m) const {
   Controlled c = pressure_around("pressure", found_, found_, m);
-  c.held = true;
+  c.constant = true;
   return c;
 }
 

@@ -29,7 +29,7 @@ public:
   explicit PressureTask(const Parameters &parameters);
 
   void begin(const Measures &m, double begun, const Transfer &from) override;
-  void command(const Measures &m, Commands &asked) override;
+  void command(const Measures &m, Commands &commands) override;
   void update(const Measures &m) override;
   bool has_settled(const Measures &m) const override { return m.time() - begun_ >= parameters_.ramp; }
   // The pressure on the lateral surface. Zero pressure is reached within a hundredth of that at the start.
@@ -48,9 +48,9 @@ class HoldPressureTask : public Task {
 public:
   explicit HoldPressureTask(std::size_t place) : place_(place) {}
   void begin(const Measures &, double, const Transfer &from) override {
-    found_ = from.asked.empty() ? 0.0 : from.asked.at(place_).pressure;
+    found_ = from.commands.empty() ? 0.0 : from.commands.at(place_).pressure;
   }
-  void command(const Measures &, Commands &asked) override { asked[place_].pressure = found_; }
+  void command(const Measures &, Commands &commands) override { commands[place_].pressure = found_; }
   std::optional<Controlled> controlled(const Measures &m) const override;
   void describe(Archive &archive) override {
     archive.version(1);

@@ -10,8 +10,8 @@
 namespace platen::coupling {
 
 bool Controlled::is_met() const {
-  constexpr double share = 0.01;
-  return std::isfinite(asked) && std::abs(reached - asked) <= share * whole;
+  constexpr double tolerance = 0.01;
+  return std::isfinite(target) && std::abs(reached - target) <= tolerance * reference;
 }
 
 void Stage::begin(const Measures &m, const Transfer &from, bool first) {
@@ -43,11 +43,11 @@ void Program::begin_stage(bool first) {
   stages_[now_]->begin(measures_, {first ? Commands{} : last_, zero_}, first);
 }
 
-void Program::command(Commands &asked) {
+void Program::command(Commands &commands) {
   if (!begun_) begun_ = true, begin_stage(true);
-  std::fill(asked.begin(), asked.end(), Command{});
-  stages_[now_]->command(measures_, asked);
-  last_ = asked;
+  std::fill(commands.begin(), commands.end(), Command{});
+  stages_[now_]->command(measures_, commands);
+  last_ = commands;
 }
 
 // A stage that begins gets the same state as the one that has ended.
@@ -70,11 +70,11 @@ void Program::go_on() {
 }
 
 void Program::change_rate(double rate) {
-  std::vector<Drive *> asked;
+  std::vector<Drive *> driven;
   for (const auto &drive : drives_)
-    if (drive->is_asked()) asked.push_back(drive.get());
-  if (asked.size() != 1) throw std::invalid_argument("program: not one pair of platens is driven at a rate");
-  asked.front()->change_rate(rate, measures_);
+    if (drive->is_driven()) driven.push_back(drive.get());
+  if (driven.size() != 1) throw std::invalid_argument("program: not one pair of platens is driven at a rate");
+  driven.front()->change_rate(rate, measures_);
 }
 
 double Program::fastest() const {

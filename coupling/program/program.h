@@ -51,9 +51,9 @@ inline double smooth_start(double x) {
   return x >= 1 ? 1.0 : x * x * (3 - 2 * x);
 }
 
-// From one stage to the next.
+// What a stage takes over from the one before it.
 struct Transfer {
-  Commands asked;               // commands of the step that has just ended; empty at the start of a test
+  Commands commands;            // commands of the step that has just ended; empty at the start of a test
   std::array<double, 3> zero{}; // closure strains along x, y, z from which strains count
 };
 
@@ -65,16 +65,16 @@ struct Controlled {
   std::string quantity, side; // "stress", "lateral x"
   std::string unit;           // "Pa"; of rates "m/s" and "1/s", which are means over the stage
   int axis = 2;               // 0 x, 1 y, 2 z, or around
-  bool held = false;          // prescribed to stay as at the start of the stage
-  double asked = 0, reached = 0;
-  double whole = 0; // reference of the tolerance of 1 %: the magnitude of `asked`, unless that is zero
+  bool constant = false;      // prescribed to stay as at the start of the stage
+  double target = 0, reached = 0;
+  double reference = 0; // of the tolerance of 1 %: the magnitude of `target`, unless that is zero
 
   // Within 1 %; false where a value is not finite.
   bool is_met() const;
 };
 
-// How a stage increases the load along the loaded axis in the sense of the test. Otherwise (none) a falling
-// stress falls by command, and a stress that is constant under stress control is constant by command.
+// How a stage increases the load along the loaded axis in the sense of the test. With `none` the load does
+// not increase: a fall of the stress, or a constant stress under stress control, is then prescribed.
 enum class Loads { none, by_closure, by_stress, by_widening };
 
 class Stage {
@@ -84,7 +84,7 @@ public:
   // Called once, before its first command; the first stage of a test has begun at 0 s with no closure.
   void begin(const Measures &m, const Transfer &from, bool first);
   // Called after the drift of the particles, before forces. All commands are zero on entry.
-  virtual void command(const Measures &m, Commands &asked) = 0;
+  virtual void command(const Measures &m, Commands &commands) = 0;
   // After forces.
   virtual void update(const Measures &) {}
   virtual bool has_ended(const Measures &m) const = 0;
@@ -132,7 +132,7 @@ public:
   ~Program();
 
   // Called after the drift of the particles: sets the command of each boundary.
-  void command(Commands &asked);
+  void command(Commands &commands);
   // After forces: goes to the next stage where one has ended. The last one continues after its end.
   void update();
   // A program that had finished, and was read with another end of its last stage, continues where that end is

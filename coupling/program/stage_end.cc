@@ -13,8 +13,8 @@ using Reached = Until::Reached;
 
 namespace {
 
-bool is_share(const Until &until) {
-  return until.what == Reached::share_of_peak || until.what == Reached::share_of_start;
+bool is_fraction(const Until &until) {
+  return until.what == Reached::fraction_of_peak || until.what == Reached::fraction_of_start;
 }
 
 } // namespace
@@ -47,9 +47,9 @@ double StageEnd::now(const Measures &m, const Until &until) const {
     case Reached::mouth_opening:
       return m.widening(*widening_of(until.what));
     case Reached::stress:
-    case Reached::share_of_peak:
-    case Reached::share_of_start:
-      return until.of.stress(m) - (is_share(until) && until.less_pressure ? m.lateral_pressure() : 0.0);
+    case Reached::fraction_of_peak:
+    case Reached::fraction_of_start:
+      return until.of.stress(m) - (is_fraction(until) && until.less_pressure ? m.lateral_pressure() : 0.0);
     default:
       return 0;
   }
@@ -65,7 +65,7 @@ void StageEnd::begin(const Measures &m, const Transfer &from) {
 
 void StageEnd::update(const Measures &m, double) {
   for (std::size_t k = 0; k < seen_.size(); ++k)
-    if (parameters_.any[k].what == Reached::share_of_peak)
+    if (parameters_.any[k].what == Reached::fraction_of_peak)
       seen_[k].largest = std::max(seen_[k].largest, std::abs(now(m, parameters_.any[k])));
 }
 
@@ -83,9 +83,9 @@ bool StageEnd::is_met(const Measures &m, const Until &until, const Seen &seen, d
       const double strain = std::abs(now(m, until) - seen.zero);
       return until.direction > 0 ? strain >= value : strain <= value;
     }
-    case Reached::share_of_peak:
+    case Reached::fraction_of_peak:
       return passed > parameters_.ramp && std::abs(now(m, until)) <= value * seen.largest;
-    case Reached::share_of_start: {
+    case Reached::fraction_of_start: {
       const double sign = seen.found < 0 ? -1 : 1;
       return sign * now(m, until) <= value * std::abs(seen.found);
     }

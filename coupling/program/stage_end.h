@@ -12,11 +12,11 @@ namespace platen::coupling {
 // A condition that ends a stage.
 struct Until {
   enum class Reached {
-    strain,         // closure strain of the axis since the end of consolidation
-    strain_change,  // since the stage began, of either sign
-    stress,         // Pa, reached from below or above, depending on the stress at the start of the stage
-    share_of_peak,  // of the largest stress of this stage, after the ramp: the stress has fallen to it
-    share_of_start, // of the stress at the start of the stage: it has fallen to it
+    strain,            // closure strain of the axis since the end of consolidation
+    strain_change,     // since the stage began, of either sign
+    stress,            // Pa, reached from below or above, depending on the stress at the start of the stage
+    fraction_of_peak,  // of the largest stress of this stage, after the ramp: the stress has fallen to it
+    fraction_of_start, // of the stress at the start of the stage: it has fallen to it
     circumferential_strain,
     mouth_opening, // m, of a notch
     time,          // s, since the stage began
@@ -32,7 +32,7 @@ struct Until {
 
 // "strain change", "share of peak"
 const char *name_of(Until::Reached what);
-// How the specimen has widened at that end; none where it looks at something else.
+// The kind of widening that the condition reads; no value for other conditions.
 std::optional<Widening> widening_of(Until::Reached what);
 
 class StageEnd {

@@ -36,7 +36,7 @@ public:
   explicit StressTask(Parameters parameters);
 
   void begin(const Measures &m, double begun, const Transfer &from) override;
-  void command(const Measures &m, Commands &asked) override;
+  void command(const Measures &m, Commands &commands) override;
   void update(const Measures &m) override;
   bool has_settled(const Measures &m) const override;
   // Of several platens that have to carry it, the one with the largest error. A zero stress is reached within
@@ -47,9 +47,9 @@ public:
   void describe(Archive &archive) override;
 
 private:
-  double wanted(const Measures &m) const;   // Pa, present target
-  double asked(const Measures &m) const;    // Pa, after the ramp
-  double farthest(const Measures &m) const; // Pa, stress with the largest error, of `settled_by`
+  double present_target(const Measures &m) const; // Pa, of the servo in this step
+  double final_target(const Measures &m) const;   // Pa, after the ramp
+  double farthest(const Measures &m) const;       // Pa, stress with the largest error, of `settled_by`
 
   Parameters parameters_;
   Servo servo_;

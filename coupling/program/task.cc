@@ -17,26 +17,26 @@ double PlatensOfAxis::closure(const Measures &m) const {
   return sum;
 }
 
-double PlatensOfAxis::speed(const Measures &m, const Commands &asked) const {
+double PlatensOfAxis::speed(const Measures &m, const Commands &commands) const {
   double sum = 0;
   for (const std::size_t place : places)
-    if (place < asked.size()) sum += dot(asked[place].velocity, m.inward(place));
+    if (place < commands.size()) sum += dot(commands[place].velocity, m.inward(place));
   return sum / static_cast<double>(places.size());
 }
 
-void PlatensOfAxis::move(const Measures &m, double inward, Commands &asked) const {
+void PlatensOfAxis::move(const Measures &m, double inward, Commands &commands) const {
   for (const std::size_t place : places)
-    asked[place].velocity = inward * m.inward(place);
+    commands[place].velocity = inward * m.inward(place);
 }
 
 void HoldTask::begin(const Measures &m, double begun, const Transfer &from) {
   begun_ = begun;
-  speed_found_ = platens_.speed(m, from.asked);
+  speed_found_ = platens_.speed(m, from.commands);
 }
 
-void HoldTask::command(const Measures &m, Commands &asked) {
+void HoldTask::command(const Measures &m, Commands &commands) {
   const double middle = m.time() - 0.5 * m.time_step() - begun_;
-  if (speed_found_ != 0) platens_.move(m, speed_found_ * (1 - start_of_ramp(middle, ramp_)), asked);
+  if (speed_found_ != 0) platens_.move(m, speed_found_ * (1 - start_of_ramp(middle, ramp_)), commands);
 }
 
 void HoldTask::describe(Archive &archive) {

@@ -18,10 +18,10 @@ struct PlatensOfAxis {
   double length = 0; // m, of the specimen between two opposite faces
   int axis = 2;      // 0 x, 1 y, 2 z
 
-  double stress(const Measures &m) const;                             // Pa, mean, compression positive
-  double closure(const Measures &m) const;                            // m, sum over all of them
-  double speed(const Measures &m, const Commands &asked) const;       // m/s, mean, inward positive; else 0
-  void move(const Measures &m, double inward, Commands &asked) const; // m/s, each
+  double stress(const Measures &m) const;                                // Pa, mean, compression positive
+  double closure(const Measures &m) const;                               // m, sum over all of them
+  double speed(const Measures &m, const Commands &commands) const;       // m/s, mean, inward positive; else 0
+  void move(const Measures &m, double inward, Commands &commands) const; // m/s, each
 };
 
 inline double start_of_ramp(double passed, double ramp) {
@@ -39,7 +39,7 @@ public:
   // Called once, when its stage begins, `begun` in s.
   virtual void begin(const Measures &m, double begun, const Transfer &from) = 0;
   // Called after the drift of the particles, before forces. All commands are zero on entry.
-  virtual void command(const Measures &m, Commands &asked) = 0;
+  virtual void command(const Measures &m, Commands &commands) = 0;
   // After forces.
   virtual void update(const Measures &) {}
   // Whether the specimen carries what is prescribed.
@@ -57,7 +57,7 @@ class HoldTask : public Task {
 public:
   HoldTask(PlatensOfAxis platens, double ramp) : platens_(std::move(platens)), ramp_(ramp) {}
   void begin(const Measures &m, double begun, const Transfer &from) override;
-  void command(const Measures &m, Commands &asked) override;
+  void command(const Measures &m, Commands &commands) override;
   void describe(Archive &archive) override;
 
 private:

@@ -26,14 +26,14 @@ public:
   explicit WideningTask(const Parameters &parameters);
 
   void begin(const Measures &m, double begun, const Transfer &from) override;
-  void command(const Measures &m, Commands &asked) override;
+  void command(const Measures &m, Commands &commands) override;
   double fastest() const override { return parameters_.fastest; }
   Loads loads(double) const override { return Loads::by_widening; }
   std::optional<Controlled> controlled(const Measures &m) const override; // the mean rates of the stage
   void describe(Archive &archive) override;
 
 private:
-  double asked_at(double passed) const;
+  double target_at(double passed) const;
   double now(const Measures &m) const { return m.widening(parameters_.of); }
 
   Parameters parameters_;

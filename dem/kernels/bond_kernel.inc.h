@@ -49,9 +49,10 @@ PLATEN_INLINE Simd add_lanes(const BondColumns &c, const Law &law, std::size_t k
   if constexpr (Loop::dashpots) {
     Triple<Simd> d, v;
     part(ends, d, v);
-    const DashpotResponse beside = dashpots_of<Rows>(c, k, ends, d, v, Simd(1.0), power);
+    const DashpotResponse damping = dashpots_of<Rows>(c, k, ends, d, v, Simd(1.0), power);
     const BondResponse<Simd> r = respond<Loop>(c, law, k, ends, d);
-    scatter<Rows>(ends, r.force + beside.force, r.torque_i + beside.torque_i, r.torque_j + beside.torque_j);
+    scatter<Rows>(ends, r.force + damping.force, r.torque_i + damping.torque_i,
+                  r.torque_j + damping.torque_j);
     return r.excess;
   } else {
     const BondResponse<Simd> r = respond<Loop>(c, law, k, ends, distances(ends));

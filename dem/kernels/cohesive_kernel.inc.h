@@ -113,10 +113,10 @@ PLATEN_INLINE void scatter_response(const Ends &ends, const CohesiveGeometry<Sim
   }
 }
 
-// What has become of a SIMD vector of bonds in this step.
+// Changes of a SIMD vector of bonds in this step.
 struct LaneChanges {
   Simd failed;            // positive where one has failed
-  bool by_damage = false; // one has been damaged that was not; of laws that keep these apart
+  bool by_damage = false; // an undamaged bond was damaged; only for laws that keep damaged rows separate
   PLATEN_INLINE bool any() const { return by_damage || any_positive(failed); }
 };
 
@@ -133,7 +133,7 @@ PLATEN_INLINE LaneChanges add_lanes_by_motion(const CohesiveColumns &c, const La
   for_each_memory(c.memory, k, s, [](auto *column, const auto &member) { store(column, member); });
   scatter_response<Rows, Law>(ends, g, m.distance, response);
   LaneChanges changes{response.failed_now};
-  if constexpr (keeps_damaged_apart<Law>)
+  if constexpr (keeps_damaged_separate<Law>)
     changes.by_damage = any_positive(where_positive(before, Simd(0.0), law.damage_of(s)));
   return changes;
 }
@@ -152,7 +152,7 @@ template <class Rows, bool factors, class Law>
   const CohesiveGeometry<Simd> g = geometry<Law>(c.bonds, k, factors);
   typename Law::template State<Simd> s;
   for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
-  if (law.stays_apart(s, g, distances(ends))) return;
+  if (law.stays_separated(s, g, distances(ends))) return;
   const CohesiveMotion<Simd> m =
       motion_of<Rows, false, Law::needs_orientations>(c.bonds, k, ends, g.lever, dt);
   const CohesiveResponse<Simd> response = law.advance_broken(s, g, m);
@@ -179,7 +179,7 @@ template <class Rows, bool factors, bool dashpots, class Law>
 PLATEN_INLINE bool add_any_lanes(const CohesiveColumns &c, const Law &law, std::size_t k, const Ends &ends,
                                  double dt, PowerSum &power) {
   const LaneChanges changes = add_broken_lanes<Rows, factors>(c, law, k, ends, dt);
-  if constexpr (dashpots) add_dashpots_apart<Rows>(c.bonds, k, ends, changes.failed, power);
+  if constexpr (dashpots) add_dashpots_separately<Rows>(c.bonds, k, ends, changes.failed, power);
   return changes.any();
 }
 
@@ -277,8 +277,8 @@ BlockFindings compute_with(const CohesiveColumns &c, const BlockColumns &block, 
 }
 
 template <bool rotation, class Law>
-BlockFindings compute_beside(const CohesiveColumns &c, const BlockColumns &block, const Law &law, double dt,
-                             std::size_t first, std::size_t last) {
+BlockFindings compute_by_dashpots(const CohesiveColumns &c, const BlockColumns &block, const Law &law,
+                                  double dt, std::size_t first, std::size_t last) {
   return c.bonds.dashpot != nullptr ? compute_with<rotation, true>(c, block, law, dt, first, last)
                                     : compute_with<rotation, false>(c, block, law, dt, first, last);
 }
@@ -296,8 +296,8 @@ BlockFindings compute_forces_of(const CohesiveColumns &c, const BlockColumns &bl
   const bool turning = c.bonds.orientation != nullptr;
   return of_remembering(law, [&](const auto &remembering) {
     return as_it_bends(remembering, turning, [&](const auto &one) {
-      return turning ? compute_beside<true>(c, block, one, dt, first, last)
-                     : compute_beside<false>(c, block, one, dt, first, last);
+      return turning ? compute_by_dashpots<true>(c, block, one, dt, first, last)
+                     : compute_by_dashpots<false>(c, block, one, dt, first, last);
     });
   });
 }
@@ -316,13 +316,13 @@ PLATEN_INLINE void measure_lanes(const CohesiveColumns &c, const Law &law, const
   const CohesiveGeometry<Simd> g = geometry<Law>(b, k, b.strength_factor != nullptr);
   typename Law::template State<Simd> s;
   for_each_memory(c.memory, k, s, [](const auto *column, auto &member) { member = load(column); });
-  const HeldByBond<Simd> held = law.held(s, g, pose);
+  const ForceAndEnergy<Simd> stored = law.force_and_energy(s, g, pose);
   const auto put = [&](double *column, const Simd &value) {
     for (std::size_t l = 0; l < count; ++l)
       column[at + l] = value.v[l];
   };
-  put(to.energy, held.energy);
-  put(to.force, root(dot(held.force, held.force)));
+  put(to.energy, stored.energy);
+  put(to.force, root(dot(stored.force, stored.force)));
   put(to.dissipated, s.dissipated);
   put(to.damage, law.damage_of(s));
   put(to.plastic, law.plastic_work(s, g));

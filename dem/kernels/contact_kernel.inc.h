@@ -128,12 +128,12 @@ PLATEN_INLINE void tangential_force(const ContactColumns &c, const ContactStep &
     const Triple<Simd> seen = spring;
     spring = choose<OfLanes>(OfLanes::above(kt, now), scale(Simd(now / kt), spring), spring);
     if constexpr (Effects::ledger) {
-      const LaneMask held = OfLanes::above(kt, zero) & OfLanes::above(square, zero);
+      const LaneMask loaded = OfLanes::above(kt, zero) & OfLanes::above(square, zero);
       // At an overlap of exactly 0 the stiffness is 0, and the spring has lost all its energy.
       const Simd left = OfLanes::choose(OfLanes::above(now, zero), dot(spring, spring) / now, zero);
       const Simd loss =
           Simd(0.5) * square / kt - Simd(0.5) * left + half_step * dot(seen - spring, t.slip_velocity);
-      lost.softened = OfLanes::choose(held, loss, zero);
+      lost.softened = OfLanes::choose(loaded, loss, zero);
     }
     kt = now;
     scatter(c.tangential_stiffness, t.row, t.count, kt);
@@ -216,10 +216,10 @@ PLATEN_INLINE Losses add_lanes(const ContactColumns &c, const ContactBlock &b, c
   const Triple<Simd> v = approach<Effects>(c, s, t);
   const Simd vn = dot(v, t.n), elastic = t.pressing;
   if (c.dashpot != nullptr) { // no attraction
-    const Simd held =
+    const Simd damped =
         elastic -
         Simd(2 * s.dashpot) * OfLanes::root(t.kn * reduced_of(gather(c.mass, t.i), gather(c.mass, t.j))) * vn;
-    t.pressing = OfLanes::choose(OfLanes::above(held, Simd(0.0)), held, Simd(0.0));
+    t.pressing = OfLanes::choose(OfLanes::above(damped, Simd(0.0)), damped, Simd(0.0));
     t.drag = scale(Simd(elastic - t.pressing), t.n);
   }
   t.force = scale(-t.pressing, t.n);

@@ -63,8 +63,8 @@ PLATEN_INLINE DashpotResponse dashpots_of(const BondColumns &c, std::size_t k, c
 
 // Dashpots alone, for SIMD vectors in which bonds may have failed in this step: `failed` is positive there.
 template <class Rows>
-[[gnu::noinline]] void add_dashpots_apart(const BondColumns &c, std::size_t k, const Ends &ends,
-                                          const Simd &failed, PowerSum &power) {
+[[gnu::noinline]] void add_dashpots_separately(const BondColumns &c, std::size_t k, const Ends &ends,
+                                               const Simd &failed, PowerSum &power) {
   Triple<Simd> d, v;
   part(ends, d, v);
   const DashpotResponse r =

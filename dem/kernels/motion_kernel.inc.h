@@ -45,12 +45,12 @@ inline Real damped(const Real &force, const Real &velocity, double alpha) {
   return force - with_sign(Real(alpha * magnitude(force)), velocity);
 }
 
-// Local damping of the whole load, along the velocity; none at zero velocity.
+// Local damping of the load as a vector, along the velocity; no damping at zero velocity.
 template <class Real>
 inline Triple<Real> damped_along(const Triple<Real> &load, const Triple<Real> &v, double alpha) {
   const Real speed = root(dot(v, v)), zero = speed * 0.0;
-  const Real share = alpha * root(dot(load, load)) / where_positive(speed, speed, Real(zero + 1.0));
-  return load - scale(share, v);
+  const Real factor = alpha * root(dot(load, load)) / where_positive(speed, speed, Real(zero + 1.0));
+  return load - scale(factor, v);
 }
 
 // A load after local damping, in the form of the step.
@@ -77,7 +77,7 @@ inline Rotation<Real> turned_by(const Rotation<Real> &q, const Triple<Real> &w, 
 template <class Real, bool dissipative, Halves halves>
 inline void end_kick(Triple<Real> &v, Triple<Real> &load, const Real &mass, const Real &mobility,
                      const MotionStep &step, PartialSums<Real> &sums, const Vector3 *kept) {
-  const Triple<Real> whole = load;
+  const Triple<Real> undamped = load;
   [[maybe_unused]] Triple<Real> excess{};
   if constexpr (dissipative) excess = Rows<Real>::vector(kept);
   load = damped(load, v, step);
@@ -95,7 +95,7 @@ inline void end_kick(Triple<Real> &v, Triple<Real> &load, const Real &mass, cons
     mean = v + scale(Real(0.5), excess + next);
   }
   if (step.damping != LocalDamping::none)
-    sums.damping_work = sums.damping_work + step.finished * dot(whole - load, mean);
+    sums.damping_work = sums.damping_work + step.finished * dot(undamped - load, mean);
   if constexpr (halves == Halves::end) sums.kinetic_energy = sums.kinetic_energy + 0.5 * mass * dot(v, v);
 }
 

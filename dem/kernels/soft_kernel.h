@@ -21,7 +21,7 @@ struct alignas(16) SoftRow { // read as a vector of four
 
 // Rows fill whole groups; padding rows have a radius and no partners.
 struct SoftColumns {
-  SoftRow *way;           // displacement since the lists were made; w: the radius
+  SoftRow *displacement;  // displacement since the lists were made; w: the radius
   SoftRow *velocity;      // w: 0
   SoftRow *force;         // w: 0
   const SoftRow *outside; // force on a sphere except from its partners; w: 0
@@ -36,7 +36,7 @@ struct SoftLists {
   // Of each step: vector from the sphere to its partner when the lists were made, x, y and z, and its square
   // minus the square of the sum of radii. Lanes without a further partner hold their own row, zero distance
   // and `no_partner`.
-  const float *apart;
+  const float *separation;
 };
 constexpr float no_partner = 1e30F;
 

@@ -112,18 +112,18 @@ struct LaneSums {
 // With u the partner's displacement minus the own one and d the listed vector, |d + u|^2 is equal to |d|^2 +
 // (d + (d + u)) . u. The overlap is the difference of the squares of reach and distance over their sum.
 inline void add_forces(const SoftColumns &c, const SoftLists &lists, std::size_t group,
-                       const unsigned *partner, const float *apart, float step, int p, LaneSums &sums) {
+                       const unsigned *partner, const float *separation, float step, int p, LaneSums &sums) {
   const int *row = lists.row + soft_group * group + static_cast<std::size_t>(lanes * p);
-  const Columns own = gather(c.way, row), velocity = gather(c.velocity, row);
+  const Columns own = gather(c.displacement, row), velocity = gather(c.velocity, row);
   Columns force = gather(c.outside, row);
   Floats overlaps{}, contacts{};
-  for (int k = 0; k < lists.steps[group]; ++k, partner += soft_group, apart += 4 * soft_group) {
-    const Columns other = gather(c.way, partner);
-    const Columns d{load(apart), load(apart + soft_group), load(apart + 2 * soft_group), {}};
+  for (int k = 0; k < lists.steps[group]; ++k, partner += soft_group, separation += 4 * soft_group) {
+    const Columns other = gather(c.displacement, partner);
+    const Columns d{load(separation), load(separation + soft_group), load(separation + 2 * soft_group), {}};
     const Columns u{other.x - own.x, other.y - own.y, other.z - own.z, {}};
     const Columns now{d.x + u.x, d.y + u.y, d.z + u.z, {}};
     const Columns both{d.x + now.x, d.y + now.y, d.z + now.z, {}};
-    const Floats outside = load(apart + 3 * soft_group) + product(both, u);
+    const Floats outside = load(separation + 3 * soft_group) + product(both, u);
     const Floats distance = root(product(now, now));
     const Floats inside = outside < 0.0F ? -outside : Floats{};
     const Floats weight = inside / ((own.w + other.w + distance) * (distance + tiny));
@@ -144,12 +144,12 @@ inline void add_forces(const SoftColumns &c, const SoftLists &lists, std::size_t
 SoftSums PLATEN_SOFT_FORCES(SoftColumns c, SoftLists lists, float step) {
   LaneSums sums;
   const unsigned *partner = lists.partner;
-  const float *apart = lists.apart;
+  const float *separation = lists.separation;
   for (std::size_t group = 0; group < lists.groups; ++group) {
     for (int p = 0; p < parts; ++p)
-      add_forces(c, lists, group, partner + lanes * p, apart + lanes * p, step, p, sums);
+      add_forces(c, lists, group, partner + lanes * p, separation + lanes * p, step, p, sums);
     const std::size_t entries = soft_group * static_cast<std::size_t>(lists.steps[group]);
-    partner += entries, apart += 4 * entries;
+    partner += entries, separation += 4 * entries;
   }
   return {sum_of(sums.overlap), sum_of(sums.contacts), sum_of(sums.push), sum_of(sums.speed),
           sum_of(sums.power)};
@@ -162,7 +162,7 @@ float PLATEN_SOFT_DRIFT(SoftColumns c, SoftMove m, std::size_t first, std::size_
     const Floats f = load(&c.force[row].x), kicked = load(&c.velocity[row].x) + m.step * f;
     const Floats v = (1.0F - m.mixing) * kicked + m.along * f;
     *reinterpret_cast<FloatsInMemory *>(&c.velocity[row].x) = v;
-    *reinterpret_cast<FloatsInMemory *>(&c.way[row].x) = load(&c.way[row].x) + m.step * v;
+    *reinterpret_cast<FloatsInMemory *>(&c.displacement[row].x) = load(&c.displacement[row].x) + m.step * v;
     const Floats square = v * v;
     const Floats pairs = square + PLATEN_SHUFFLE(square, square, 1, 0, 3, 2);
     const Floats speed = pairs + PLATEN_SHUFFLE(pairs, pairs, 2, 3, 0, 1);

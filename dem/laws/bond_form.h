@@ -26,7 +26,7 @@ namespace platen::dem {
 #define PLATEN_INLINE inline
 #endif
 
-// Functions that a law needs for its real type beyond arithmetic; SIMD vectors bring their own.
+// Functions that a law needs for its real type beyond arithmetic; SIMD vectors define their own.
 inline double root(double a) {
   return std::sqrt(a);
 }

@@ -63,13 +63,13 @@ inline bool failed_rows_last(const BondLaw &law) {
 }
 
 // Of those, laws that leave their quick path wherever a bond of a SIMD vector is damaged, and damage many
-// bonds long before they fail: damaged rows stand between the others.
+// bonds long before they fail: their damaged rows are kept between the intact and the failed ones.
 template <class Law, class = void>
-constexpr bool keeps_damaged_apart = false;
+constexpr bool keeps_damaged_separate = false;
 template <class Law>
-constexpr bool keeps_damaged_apart<Law, std::enable_if_t<Law::damaged_rows_apart>> = true;
-inline bool damaged_rows_apart(const BondLaw &law) {
-  return std::visit([](const auto &l) { return keeps_damaged_apart<std::decay_t<decltype(l)>>; }, law);
+constexpr bool keeps_damaged_separate<Law, std::enable_if_t<Law::damaged_rows_separate>> = true;
+inline bool damaged_rows_separate(const BondLaw &law) {
+  return std::visit([](const auto &l) { return keeps_damaged_separate<std::decay_t<decltype(l)>>; }, law);
 }
 
 // Laws whose quick path (cohesive_form.h) reads how a bond's particles move; others do so where a bond is
@@ -78,8 +78,8 @@ template <class Law, class = void>
 constexpr bool reads_motion = false;
 template <class Law>
 constexpr bool reads_motion<Law, std::enable_if_t<Law::intact_reads_motion>> = true;
-// Laws for which the rows of a block hold the velocities of its particles: those, and others that have a
-// quick path without but leave it in most vectors.
+// Laws for which the rows of a block hold the velocities of its particles: the laws above, and laws whose
+// quick path reads no motion but which leave this path in most vectors.
 template <class Law, class = void>
 constexpr bool rows_hold_motion = reads_motion<Law>;
 template <class Law>

@@ -51,7 +51,7 @@ struct CohesiveResponse {
 
 // Force and energy of a given state: for sums over all bonds.
 template <class Real>
-struct HeldByBond {
+struct ForceAndEnergy {
   Triple<Real> force; // N, on the first
   Real energy;        // J, stored
 };
@@ -102,8 +102,8 @@ struct PlaneMotion {
 // For failed bonds with a plastic closing of `plastic` (Pa): whether none is compressed, nor was when its
 // friction spring last slid, so that no force acts and no state changes.
 template <class Real>
-PLATEN_INLINE bool are_apart(const CohesiveGeometry<Real> &g, const Triple<Real> &distance,
-                             const Real &plastic, const Triple<Real> &spring) {
+PLATEN_INLINE bool are_separated(const CohesiveGeometry<Real> &g, const Triple<Real> &distance,
+                                 const Real &plastic, const Triple<Real> &spring) {
   const Real length = root(dot(distance, distance));
   const Real pressed = g.normal_stiffness * (g.rest_length - length) - plastic; // Pa
   return !any_positive(pressed) && !any_positive(dot(spring, spring));
@@ -111,7 +111,7 @@ PLATEN_INLINE bool are_apart(const CohesiveGeometry<Real> &g, const Triple<Real>
 
 // Friction spring, k x with |k x| <= cap (Pa): the fraction of x (m) that slips and is lost.
 template <class Real>
-PLATEN_INLINE Real slipping_share(const Triple<Real> &spring, const Real &stiffness, const Real &cap) {
+PLATEN_INLINE Real slipping_fraction(const Triple<Real> &spring, const Real &stiffness, const Real &cap) {
   const Real pull = stiffness * root(dot(spring, spring));
   const Real over = positive_part(Real(pull - cap)); // Pa
   return over / where_positive(pull, pull, Real(pull * 0.0 + 1.0));

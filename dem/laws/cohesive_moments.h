@@ -1,8 +1,8 @@
 // Option of the elasto-damage-plastic cohesive bonds: bending and twisting. The moments are those of the
 // parallel bond (bond_form.h), k_n I and k_s J times the relative rotation, in total form, without further
 // history. Without damage they load the skin, T + beta |M_b| R_b/I and k_s |u_s| + beta |M_t| R_b/J, and they
-// soften with the more damaged one of tension and shear: M = min(g(D_n), g(D_s)) M_whole. A failed bond has
-// no moments. Yield does not change them.
+// soften with the more damaged one of tension and shear: M = min(g(D_n), g(D_s)) M_undamaged. A failed bond
+// has no moments. Yield does not change them.
 #pragma once
 
 #include "dem/laws/elasto_damage_plastic.h"
@@ -19,12 +19,12 @@ struct BendingCohesive {
 
   // Moments of a bond in this pose without damage, and the stresses that they cause at the skin.
   template <class Real>
-  struct Whole {
+  struct Undamaged {
     BondResponse<Real> moments; // N, N m, J: by moments alone
     SkinStress<Real> skin;
   };
   template <class Real>
-  Whole<Real> whole(const CohesiveGeometry<Real> &g, const BondMotion<Real> &pose) const;
+  Undamaged<Real> undamaged(const CohesiveGeometry<Real> &g, const BondMotion<Real> &pose) const;
 
   template <class Real>
   CohesiveResponse<Real> operator()(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
@@ -40,9 +40,9 @@ struct BendingCohesive {
     return ElastoDamagePlastic::failed(s);
   }
   template <class Real>
-  bool stays_apart(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
-                   const Triple<Real> &distance) const {
-    return law.stays_apart(s, g, distance);
+  bool stays_separated(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
+                       const Triple<Real> &distance) const {
+    return law.stays_separated(s, g, distance);
   }
   template <class Real>
   CohesiveResponse<Real> advance_broken(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
@@ -50,11 +50,11 @@ struct BendingCohesive {
     return law.advance_broken(s, g, m); // a broken bond has no moments
   }
   template <class Real>
-  HeldByBond<Real> held(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
-                        const BondMotion<Real> &pose) const {
-    const HeldByBond<Real> forces = law.held(s, g, pose);
-    const BondResponse<Real> moments = whole(g, pose).moments;
-    const Real left = law.share_of_moments(s, g);
+  ForceAndEnergy<Real> force_and_energy(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
+                                        const BondMotion<Real> &pose) const {
+    const ForceAndEnergy<Real> forces = law.force_and_energy(s, g, pose);
+    const BondResponse<Real> moments = undamaged(g, pose).moments;
+    const Real left = law.fraction_of_moments(s, g);
     return {forces.force + scale(left, moments.force), forces.energy + left * moments.energy};
   }
   template <class Real>
@@ -68,12 +68,12 @@ struct BendingCohesive {
 };
 
 template <class Real>
-PLATEN_INLINE auto BendingCohesive::whole(const CohesiveGeometry<Real> &g, const BondMotion<Real> &pose) const
-    -> Whole<Real> {
+PLATEN_INLINE auto BendingCohesive::undamaged(const CohesiveGeometry<Real> &g,
+                                              const BondMotion<Real> &pose) const -> Undamaged<Real> {
   const Real kn = g.normal_stiffness, ks = law.shear_ratio() * kn, square = dot(pose.distance, pose.distance);
   BondStrain<Real> e;
   e.length = root(square), e.per_square = 1.0 / square;
-  Whole<Real> w{};
+  Undamaged<Real> w{};
   bend_and_twist(w.moments, e, Real(0.25 * g.radius * g.radius * g.area * kn), 2.0 * law.shear_ratio() - 1.0,
                  pose);
   const Real turning = (2.0 * law.parameters.moment_contribution) * magnitude(e.half_cosine) * g.radius;
@@ -86,10 +86,10 @@ template <class Real>
 PLATEN_INLINE CohesiveResponse<Real> BendingCohesive::operator()(CohesiveState<Real> &s,
                                                                  const CohesiveGeometry<Real> &g,
                                                                  const CohesiveMotion<Real> &m) const {
-  const Real was = law.share_of_moments(s, g);
-  const Whole<Real> w = whole(g, BondMotion<Real>{m.distance, m.turn_i, m.turn_j});
+  const Real was = law.fraction_of_moments(s, g);
+  const Undamaged<Real> w = undamaged(g, BondMotion<Real>{m.distance, m.turn_i, m.turn_j});
   CohesiveResponse<Real> r = law.template advance_under<true>(w.skin, s, g, m);
-  const Real is = law.share_of_moments(s, g);
+  const Real is = law.fraction_of_moments(s, g);
   // As for every spring that loses a fraction: the product of both ends; the first end is the second less the
   // step.
   const BondResponse<Real> &moments = w.moments;
@@ -108,7 +108,7 @@ template <class Real>
 PLATEN_INLINE bool BendingCohesive::advance_intact(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
                                                    const CohesiveMotion<Real> &m, CohesiveResponse<Real> &r,
                                                    bool &yielded) const {
-  const Whole<Real> w = whole(g, BondMotion<Real>{m.distance, m.turn_i, m.turn_j});
+  const Undamaged<Real> w = undamaged(g, BondMotion<Real>{m.distance, m.turn_i, m.turn_j});
   if (!law.template advance_intact<true>(w.skin, s, g, m, r, yielded)) return false;
   const Triple<Real> moment = cross(m.distance, r.force);
   r.torque_i = scale(g.lever, moment) + w.moments.torque_i;
@@ -121,14 +121,14 @@ inline BondResponse<double> ElastoDamagePlastic::bond_response(const CohesiveSta
                                                                const CohesiveGeometry<double> &g,
                                                                const CohesiveMotion<double> &m) const {
   if (!parameters.moments) return response_under({0, 0}, s, g, m);
-  const BendingCohesive::Whole<double> whole =
-      BendingCohesive{*this}.whole(g, BondMotion<double>{m.distance, m.turn_i, m.turn_j});
-  BondResponse<double> r = response_under(whole.skin, s, g, m);
-  const double left = share_of_moments(s, g);
-  r.force = r.force + scale(left, whole.moments.force);
-  r.torque_i = r.torque_i + scale(left, whole.moments.torque_i);
-  r.torque_j = r.torque_j + scale(left, whole.moments.torque_j);
-  r.energy += left * whole.moments.energy;
+  const BendingCohesive::Undamaged<double> undamaged =
+      BendingCohesive{*this}.undamaged(g, BondMotion<double>{m.distance, m.turn_i, m.turn_j});
+  BondResponse<double> r = response_under(undamaged.skin, s, g, m);
+  const double left = fraction_of_moments(s, g);
+  r.force = r.force + scale(left, undamaged.moments.force);
+  r.torque_i = r.torque_i + scale(left, undamaged.moments.torque_i);
+  r.torque_j = r.torque_j + scale(left, undamaged.moments.torque_j);
+  r.energy += left * undamaged.moments.energy;
   return r;
 }
 

@@ -126,16 +126,16 @@ struct ElastoDamagePlastic {
   // For a SIMD vector of failed bonds: whether all are separated now and were before, so that no force acts
   // and no state changes.
   template <class Real>
-  bool stays_apart(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
-                   const Triple<Real> &distance) const;
+  bool stays_separated(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
+                       const Triple<Real> &distance) const;
   // The step (call operator) for such a SIMD vector, with torques.
   template <class Real>
   CohesiveResponse<Real> advance_broken(CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
                                         const CohesiveMotion<Real> &m) const;
   // Fraction of the moments that remains: the smaller one of the fractions of tension and shear.
   template <class Real>
-  Real share_of_moments(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g) const {
-    const Shares<Real> of = shares(s, softening(g));
+  Real fraction_of_moments(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g) const {
+    const Fractions<Real> of = fractions(s, softening(g));
     return of.tension - positive_part(Real(of.tension - of.shear));
   }
   // The response of the given state, at the distance d of its last update.
@@ -147,8 +147,8 @@ struct ElastoDamagePlastic {
   BondResponse<double> bond_response(const CohesiveState<double> &s, const CohesiveGeometry<double> &g,
                                      const CohesiveMotion<double> &m) const;
   template <class Real>
-  HeldByBond<Real> held(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
-                        const BondMotion<Real> &pose) const {
+  ForceAndEnergy<Real> force_and_energy(const CohesiveState<Real> &s, const CohesiveGeometry<Real> &g,
+                                        const BondMotion<Real> &pose) const {
     const CohesiveResponse<Real> r = response(s, g, pose.distance);
     return {r.force, r.energy};
   }
@@ -182,11 +182,11 @@ private:
   template <class Real>
   Softening<Real> softening(const CohesiveGeometry<Real> &g) const;
   template <class Real>
-  struct Shares {
+  struct Fractions {
     Real tension, shear, friction; // of T in tension, of u_s and of x
   };
   template <class Real>
-  Shares<Real> shares(const CohesiveState<Real> &s, const Softening<Real> &delta) const;
+  Fractions<Real> fractions(const CohesiveState<Real> &s, const Softening<Real> &delta) const;
   template <class Real>
   static Real left(const Real &damage, const Real &delta) { // g(D)
     return (1.0 - damage) / (1.0 + delta * damage);
@@ -276,11 +276,11 @@ PLATEN_INLINE void ElastoDamagePlastic::damage(CohesiveState<Real> &s, const Coh
     used_n = where_positive(pulled, both, used_n);
     used_s = where_positive(pulled, both, used_s);
   }
-  const Real sound = 1.0 - larger(s.tension_damage, s.shear_damage);
+  const Real intact = 1.0 - larger(s.tension_damage, s.shear_damage);
   const Real least = zero + 1e-150; // brittle, or broken earlier: full damage at once, no division by zero
   const auto grown = [&](const Real &old, const Real &used, const Real &d) {
     const Real wanted = larger(old, Real((used - 1.0) / larger(d, least)));
-    return where_positive(sound, Real(one - positive_part(Real(1.0 - wanted))), old);
+    return where_positive(intact, Real(one - positive_part(Real(1.0 - wanted))), old);
   };
   const Real dn = grown(s.tension_damage, used_n, delta.tension);
   s.shear_damage = grown(s.shear_damage, used_s, delta.shear);
@@ -289,12 +289,12 @@ PLATEN_INLINE void ElastoDamagePlastic::damage(CohesiveState<Real> &s, const Coh
 
 // Fractions of the stresses without damage that still act.
 template <class Real>
-PLATEN_INLINE auto ElastoDamagePlastic::shares(const CohesiveState<Real> &s,
-                                               const Softening<Real> &delta) const -> Shares<Real> {
+PLATEN_INLINE auto ElastoDamagePlastic::fractions(const CohesiveState<Real> &s,
+                                                  const Softening<Real> &delta) const -> Fractions<Real> {
   const Real one = s.tension_damage * 0.0 + 1.0;
-  const Real left_whole = 1.0 - larger(s.tension_damage, s.shear_damage); // 0 once it has failed
-  const Real dn = where_positive(left_whole, s.tension_damage, one);
-  const Real ds = where_positive(left_whole, s.shear_damage, one);
+  const Real intact = 1.0 - larger(s.tension_damage, s.shear_damage); // 0 once it has failed
+  const Real dn = where_positive(intact, s.tension_damage, one);
+  const Real ds = where_positive(intact, s.shear_damage, one);
   return {left(dn, delta.tension), left(ds, delta.shear), ds};
 }
 
@@ -306,16 +306,16 @@ PLATEN_INLINE CohesiveResponse<Real> ElastoDamagePlastic::response(const Cohesiv
   const Softening<Real> delta = softening(g);
   const Real length = root(dot(d, d));
   const Real tension = kn * (length - g.rest_length) + s.plastic;
-  const Shares<Real> share = shares(s, delta);
+  const Fractions<Real> fraction = fractions(s, delta);
   const Real opening = positive_part(tension), closing = positive_part(Real(-tension));
   CohesiveResponse<Real> r;
   r.tension = tension;
-  r.normal = g.area * (share.tension * opening - closing);
-  r.shear = scale(Real(g.area * ks), scale(share.shear, s.shear) + scale(share.friction, s.slider));
+  r.normal = g.area * (fraction.tension * opening - closing);
+  r.shear = scale(Real(g.area * ks), scale(fraction.shear, s.shear) + scale(fraction.friction, s.slider));
   r.force = scale(Real(r.normal / length), d) + r.shear;
   r.energy = 0.5 * g.area *
-             ((share.tension * opening * opening + closing * closing) / divisor(kn) +
-              ks * (share.shear * dot(s.shear, s.shear) + share.friction * dot(s.slider, s.slider)));
+             ((fraction.tension * opening * opening + closing * closing) / divisor(kn) +
+              ks * (fraction.shear * dot(s.shear, s.shear) + fraction.friction * dot(s.slider, s.slider)));
   r.failed_now = tension * 0.0;
   return r;
 }
@@ -334,7 +334,7 @@ PLATEN_INLINE ElastoDamagePlastic::Step<Real>::Step(const ElastoDamagePlastic &l
   s.slider = plane.carried(s.slider);
   shear_before = s.shear - plane.moved, slider_before = s.slider - plane.moved;
   const Real cap = law.parameters.friction_dynamic * positive_part(Real(-tension)); // Pa
-  const Real let_slip = slipping_share(s.slider, ks, cap);
+  const Real let_slip = slipping_fraction(s.slider, ks, cap);
   slip = scale(let_slip, s.slider);
   s.slider = scale(Real(1.0 - let_slip), s.slider);
 }
@@ -362,18 +362,18 @@ PLATEN_INLINE CohesiveResponse<Real> ElastoDamagePlastic::advance_under(const Sk
   const Triple<Real> across = m.travelled - scale(drawn, plane.n);
   const Real tension_before =
       tension + (last.plastic - s.plastic) - kn * (drawn - 0.5 * dot(across, across) / length);
-  const Shares<Real> was = shares(last, delta), is = shares(s, delta);
+  const Fractions<Real> was = fractions(last, delta), is = fractions(s, delta);
   const Real normal_work = (was.tension - is.tension) * tension_before * positive_part(tension) / divisor(kn);
   const Real shear_work = (was.shear - is.shear) * dot(shear_before, s.shear) +
                           (was.friction - is.friction) * dot(slider_before, s.slider) +
                           dot(scale(was.friction, slider_before) + scale(is.friction, s.slider), step.slip);
   s.dissipated = s.dissipated + 0.5 * g.area * (normal_work + ks * shear_work);
   CohesiveResponse<Real> r = response(s, g, m.distance);
-  const Real whole_now = 1.0 - larger(s.tension_damage, s.shear_damage);
-  r.failed_now = where_positive(Real(1.0 - failed_before), where_positive(whole_now, zero, one), zero);
+  const Real intact = 1.0 - larger(s.tension_damage, s.shear_damage);
+  r.failed_now = where_positive(Real(1.0 - failed_before), where_positive(intact, zero, one), zero);
   // A failed bond has no such spring.
-  s.shear = {where_positive(whole_now, s.shear.x, zero), where_positive(whole_now, s.shear.y, zero),
-             where_positive(whole_now, s.shear.z, zero)};
+  s.shear = {where_positive(intact, s.shear.x, zero), where_positive(intact, s.shear.y, zero),
+             where_positive(intact, s.shear.z, zero)};
   return r;
 }
 
@@ -420,10 +420,10 @@ PLATEN_INLINE bool ElastoDamagePlastic::advance_intact(const SkinStress<Real> &s
 }
 
 template <class Real>
-PLATEN_INLINE bool ElastoDamagePlastic::stays_apart(const CohesiveState<Real> &s,
-                                                    const CohesiveGeometry<Real> &g,
-                                                    const Triple<Real> &distance) const {
-  return are_apart(g, distance, s.plastic, s.slider);
+PLATEN_INLINE bool ElastoDamagePlastic::stays_separated(const CohesiveState<Real> &s,
+                                                        const CohesiveGeometry<Real> &g,
+                                                        const Triple<Real> &distance) const {
+  return are_separated(g, distance, s.plastic, s.slider);
 }
 
 template <class Real>

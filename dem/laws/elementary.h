@@ -36,7 +36,7 @@ PLATEN_INLINE Real saturation(const Real &y) {
 
 // Angle of (x, y) over a right angle, x and y >= 0 and not both 0. By the series of an eighth of the angle.
 template <class Real>
-PLATEN_INLINE Real share_of_right_angle(const Real &y, const Real &x) {
+PLATEN_INLINE Real fraction_of_right_angle(const Real &y, const Real &x) {
   static constexpr std::array<double, 12> series{1,        -1.0 / 3,  1.0 / 5,  -1.0 / 7,
                                                  1.0 / 9,  -1.0 / 11, 1.0 / 13, -1.0 / 15,
                                                  1.0 / 17, -1.0 / 19, 1.0 / 21, -1.0 / 23};
@@ -48,7 +48,7 @@ PLATEN_INLINE Real share_of_right_angle(const Real &y, const Real &x) {
 
 // x^n, 0 <= x <= 1, n >= 0; below 1e-12 as there. By the series of the logarithm of the 64th root.
 template <class Real>
-PLATEN_INLINE Real power_of_share(const Real &x, double n) {
+PLATEN_INLINE Real power_of_fraction(const Real &x, double n) {
   static constexpr std::array<double, 12> series{1,        1.0 / 3,  1.0 / 5,  1.0 / 7,  1.0 / 9,  1.0 / 11,
                                                  1.0 / 13, 1.0 / 15, 1.0 / 17, 1.0 / 19, 1.0 / 21, 1.0 / 23};
   Real z = larger(x, Real(x * 0.0 + 1e-12));

@@ -13,7 +13,7 @@
 //            k_s |x| <= mu_2 |T|, and no more than the same limit
 //   F_n/A = (1 - D) T open, T closed; F_s/A = k_s ((1 - D) u + D x)
 // P turns with both spheres, so that cohesion is a potential of the pose wherever neither D nor P changes.
-// With Moment stiffness, moments are (1 - D) times that share of those of the parallel bond.
+// With Moment stiffness, moments are (1 - D) times that fraction of those of the parallel bond.
 #pragma once
 
 #include <cmath>
@@ -34,11 +34,11 @@ struct FacetBond {
     double shear_strength = 0;       // sigma_s, Pa; 0: never slips
     double fracture_energy = 0;      // G, J/m^2 of bond area; 0: brittle in tension
     double softening_exponent = 0.2; // n
-    double friction_static = 0;      // mu_0, of what is sound
+    double friction_static = 0;      // mu_0, of the intact part
     double transitional_stress = 0;  // sigma_0, Pa; 0: friction grows with pressure without limit
-    double friction_dynamic = 0;     // mu_2, of what is damaged
+    double friction_dynamic = 0;     // mu_2, of the damaged part
     std::vector<double> compression_limits, compression_slopes; // Pa; E_0 / E. Empty: no yield
-    double moment_stiffness = 0;                                // share of k_n I and k_s J
+    double moment_stiffness = 0;                                // fraction of k_n I and k_s J
 
     static constexpr const char *name = "FacetBond";
     template <class Visitor, class Self>
@@ -97,7 +97,7 @@ struct FacetBond {
   template <class Real>
   CohesiveResponse<Real> operator()(State<Real> &s, const CohesiveGeometry<Real> &g,
                                     const CohesiveMotion<Real> &m) const;
-  // The quick path of bonds that are sound and do not slip (cohesive_form.h), from their pose alone.
+  // The quick path of bonds that are intact and do not slip (cohesive_form.h), from their pose alone.
   static constexpr bool intact_reads_motion = false, often_reads_motion = true;
   static constexpr Changes intact_members[] = {Changes::rarely, Changes::never, Changes::never,
                                                Changes::never,  Changes::never, Changes::never};
@@ -105,11 +105,11 @@ struct FacetBond {
   bool advance_intact(State<Real> &s, const CohesiveGeometry<Real> &g, const Pair &pair,
                       CohesiveResponse<Real> &r, bool &yielded) const;
   // As in yielding_parallel_bond.h.
-  static constexpr bool failed_rows_last = true, damaged_rows_apart = true;
+  static constexpr bool failed_rows_last = true, damaged_rows_separate = true;
   template <class Real>
-  bool stays_apart(const State<Real> &s, const CohesiveGeometry<Real> &g,
-                   const Triple<Real> &distance) const {
-    return are_apart(g, distance, s.plastic, s.slider);
+  bool stays_separated(const State<Real> &s, const CohesiveGeometry<Real> &g,
+                       const Triple<Real> &distance) const {
+    return are_separated(g, distance, s.plastic, s.slider);
   }
   template <class Real>
   CohesiveResponse<Real> advance_broken(State<Real> &s, const CohesiveGeometry<Real> &g,
@@ -117,8 +117,8 @@ struct FacetBond {
   BondResponse<double> bond_response(const State<double> &s, const CohesiveGeometry<double> &g,
                                      const CohesiveMotion<double> &m) const;
   template <class Real>
-  HeldByBond<Real> held(const State<Real> &s, const CohesiveGeometry<Real> &g,
-                        const BondMotion<Real> &pose) const {
+  ForceAndEnergy<Real> force_and_energy(const State<Real> &s, const CohesiveGeometry<Real> &g,
+                                        const BondMotion<Real> &pose) const {
     const CohesiveResponse<Real> r = response(s, g, springs(s, g, pose), pose);
     return {r.force, r.energy};
   }
@@ -132,8 +132,7 @@ private:
   // Bounded, so that products of squares of them are finite.
   double tensile_, shear_; // Pa
 
-  // Of the residual strength over the strength: less is failure. 5e-4 of the fracture energy is what it
-  // takes.
+  // Residual strength over strength, below which a bond fails. This neglects 5e-4 of the fracture energy.
   static constexpr double least_left = 5e-4;
   static constexpr double brittle = 1e9; // h_t of a bond without softening
   static constexpr double tiny = 1e-100; // Pa
@@ -141,7 +140,7 @@ private:
   // Springs of a pose. Cohesion: u, with arms that the spheres carry.
   template <class Real>
   struct Springs {
-    Real length, along;         // |d|, m; u_whole.n / |d|
+    Real length, along;         // |d|, m; u_total.n / |d|
     Triple<Real> n, slip;       // u, m
     Triple<Real> arm_i, arm_j;  // m
     Real tension, sliding;      // T, t, Pa
@@ -153,7 +152,7 @@ private:
   template <class Real>
   CohesiveResponse<Real> response(const State<Real> &s, const CohesiveGeometry<Real> &g,
                                   const Springs<Real> &e, const BondMotion<Real> &pose) const;
-  // By friction of the damaged share: force on the first and its torques.
+  // Adds the friction of the damaged part: the force on the first and its torques.
   template <class Real>
   void add_friction(CohesiveResponse<Real> &r, const State<Real> &s, const CohesiveGeometry<Real> &g,
                     const Triple<Real> &distance) const;
@@ -172,7 +171,7 @@ private:
   template <class Real>
   Real shear_limit(const CohesiveGeometry<Real> &g, const Real &closing, const Real &sliding) const;
   template <class Real>
-  Real share_of_strength(const CohesiveGeometry<Real> &g, const Springs<Real> &e) const;
+  Real fraction_of_strength(const CohesiveGeometry<Real> &g, const Springs<Real> &e) const;
   template <class Real>
   void slide(State<Real> &s, const CohesiveGeometry<Real> &g, const PlaneMotion<Real> &plane,
              const Real &closing, const Real &limit, const Real &damage_before) const;
@@ -204,8 +203,8 @@ void FacetBond::Parameters::describe(Visitor &&v, Self &p) {
 
 inline BondStiffness FacetBond::stiffness(const BondGeometry<double> &g) const {
   const double square = g.radius * g.radius, axial = pi * square * g.normal_stiffness;
-  const double shear = parameters.stiffness_ratio * axial, share = parameters.moment_stiffness;
-  return {axial, shear, 0.25 * square * share * axial, 0.5 * square * share * shear};
+  const double shear = parameters.stiffness_ratio * axial, fraction = parameters.moment_stiffness;
+  return {axial, shear, 0.25 * square * fraction * axial, 0.5 * square * fraction * shear};
 }
 
 inline double FacetBond::ductility(const CohesiveGeometry<double> &g) const {
@@ -247,22 +246,22 @@ PLATEN_INLINE CohesiveResponse<Real> FacetBond::response(const State<Real> &s,
                                                          const CohesiveGeometry<Real> &g,
                                                          const Springs<Real> &e,
                                                          const BondMotion<Real> &pose) const {
-  const Real kn = g.normal_stiffness, ks = parameters.stiffness_ratio * kn, sound = 1.0 - s.damage;
+  const Real kn = g.normal_stiffness, ks = parameters.stiffness_ratio * kn, intact = 1.0 - s.damage;
   const Real opening = positive_part(e.tension), closing = positive_part(Real(-e.tension));
-  const Triple<Real> shear = scale(Real(g.area * ks * sound), e.slip);
+  const Triple<Real> shear = scale(Real(g.area * ks * intact), e.slip);
   CohesiveResponse<Real> r;
   r.tension = e.tension;
-  r.normal = g.area * (sound * opening - closing);
+  r.normal = g.area * (intact * opening - closing);
   r.force = scale(r.normal, e.n) + scale(Real(1.0 - e.along), shear);
   r.torque_i = cross(e.arm_i, shear), r.torque_j = cross(e.arm_j, shear);
   r.shear = shear;
-  const Real normal_square = sound * opening * opening + closing * closing;
-  r.energy = 0.5 * g.area * (normal_square / kn + sound * ks * dot(e.slip, e.slip));
+  const Real normal_square = intact * opening * opening + closing * closing;
+  r.energy = 0.5 * g.area * (normal_square / kn + intact * ks * dot(e.slip, e.slip));
   if (bends()) {
-    r.force = r.force + scale(sound, e.moments.force);
-    r.torque_i = r.torque_i + scale(sound, e.moments.torque_i);
-    r.torque_j = r.torque_j + scale(sound, e.moments.torque_j);
-    r.energy = r.energy + sound * e.moments.energy;
+    r.force = r.force + scale(intact, e.moments.force);
+    r.torque_i = r.torque_i + scale(intact, e.moments.torque_i);
+    r.torque_j = r.torque_j + scale(intact, e.moments.torque_j);
+    r.energy = r.energy + intact * e.moments.energy;
   }
   if (any_positive(s.damage)) {
     add_friction(r, s, g, pose.distance);
@@ -285,8 +284,8 @@ PLATEN_INLINE void FacetBond::add_friction(CohesiveResponse<Real> &r, const Stat
   r.torque_j = r.torque_j + scale(Real(1.0 - g.lever), moment);
 }
 
-// Times 1 + closing/sigma_0, the limit of shear without exponential: 1 - exp(-x) >= x/(1 + x), so that a
-// stress below this one is below the limit.
+// A lower bound of the limit of shear, times 1 + closing/sigma_0, without an exponential, because 1 - exp(-x)
+// is at least x/(1 + x). A stress below this bound is below the limit.
 template <class Real>
 PLATEN_INLINE auto FacetBond::least_limit(const CohesiveGeometry<Real> &g, const Real &closing) const
     -> LeastLimit<Real> {
@@ -295,7 +294,7 @@ PLATEN_INLINE auto FacetBond::least_limit(const CohesiveGeometry<Real> &g, const
   return {g.strength_factor * shear_ * faded + parameters.friction_static * closing, faded};
 }
 
-// Without roots and quotients; the margin covers round-off.
+// Decides without roots and quotients; the margin covers round-off.
 template <class Real>
 PLATEN_INLINE bool FacetBond::may_change(const CohesiveGeometry<Real> &g, const Springs<Real> &e) const {
   constexpr double margin = 1 + 1e-12;
@@ -307,8 +306,8 @@ PLATEN_INLINE bool FacetBond::may_change(const CohesiveGeometry<Real> &g, const 
   return !all_positive(within);
 }
 
-// Limit of shear in compression, Pa; where neither `sliding` nor the friction of what is damaged comes near
-// it in any lane, some stress above both.
+// Limit of shear in compression, Pa. If neither `sliding` nor the friction of the damaged part comes near the
+// limit in any lane, the result is only a stress above both.
 template <class Real>
 PLATEN_INLINE Real FacetBond::shear_limit(const CohesiveGeometry<Real> &g, const Real &closing,
                                           const Real &sliding) const {
@@ -316,15 +315,15 @@ PLATEN_INLINE Real FacetBond::shear_limit(const CohesiveGeometry<Real> &g, const
   const Real cohesion = g.strength_factor * shear_;
   if (!(transition > 0)) return cohesion + parameters.friction_static * closing;
   const LeastLimit<Real> least = least_limit(g, closing);
-  const Real asked = larger(sliding, Real(parameters.friction_dynamic * closing));
-  if (!any_positive(Real(asked * least.faded - least.limit))) return least.limit;
+  const Real required = larger(sliding, Real(parameters.friction_dynamic * closing));
+  if (!any_positive(Real(required * least.faded - least.limit))) return least.limit;
   return cohesion + (parameters.friction_static * transition) * saturation(Real(closing * (1 / transition)));
 }
 
-// a: 1 at the strength, in proportion to both stresses.
+// The a of the criterion: it is 1 at the strength, and in proportion to both stresses.
 template <class Real>
-PLATEN_INLINE Real FacetBond::share_of_strength(const CohesiveGeometry<Real> &g,
-                                                const Springs<Real> &e) const {
+PLATEN_INLINE Real FacetBond::fraction_of_strength(const CohesiveGeometry<Real> &g,
+                                                   const Springs<Real> &e) const {
   const Real in_tension = positive_part(e.tension) / (g.strength_factor * tensile_);
   const Real in_shear = 2.0 * e.sliding / (g.strength_factor * shear_);
   return 0.5 * (in_tension + root(in_tension * in_tension + in_shear * in_shear));
@@ -335,7 +334,7 @@ template <class Real>
 PLATEN_INLINE void FacetBond::grow(State<Real> &s, const CohesiveGeometry<Real> &g,
                                    const Springs<Real> &e) const {
   const Real zero = e.tension * 0.0, one = zero + 1.0;
-  const Real opening = positive_part(e.tension), used = share_of_strength(g, e), beyond = used - 1.0;
+  const Real opening = positive_part(e.tension), used = fraction_of_strength(g, e), beyond = used - 1.0;
   const Real open = where_positive(s.broken, zero, opening); // and not failed
   if (!any_positive(where_positive(open, beyond, zero))) return;
   const Real strength = g.strength_factor * tensile_;
@@ -348,8 +347,8 @@ PLATEN_INLINE void FacetBond::grow(State<Real> &s, const CohesiveGeometry<Real> 
   const Real most = larger(used, one) * (1.0 - s.damage) - bound;
   if (!any_positive(where_positive(open, most, zero))) return;
   const double leaning = std::sqrt(parameters.stiffness_ratio);
-  const Real angle = share_of_right_angle(Real(leaning * opening + tiny), e.sliding);
-  const Real slope = steepest * power_of_share(angle, parameters.softening_exponent);
+  const Real angle = fraction_of_right_angle(Real(leaning * opening + tiny), e.sliding);
+  const Real slope = steepest * power_of_fraction(angle, parameters.softening_exponent);
   const Real residual = 1.0 - saturation(Real(slope * positive_part(beyond)));
   const Real grows = where_positive(open, beyond, zero);
   const Real fails = where_positive(grows, positive_part(Real(least_left - residual)), zero);
@@ -367,9 +366,9 @@ PLATEN_INLINE void FacetBond::slide(State<Real> &s, const CohesiveGeometry<Real>
   const Triple<Real> carried = plane.carried(s.slider), before = carried - plane.moved;
   const Real pressed = parameters.friction_dynamic * closing;
   const Real cap = pressed - positive_part(Real(pressed - limit)); // Pa
-  const Real let_slip = slipping_share(carried, ks, cap);
+  const Real let_slip = slipping_fraction(carried, ks, cap);
   const Triple<Real> slip = scale(let_slip, carried), rest = carried - slip;
-  // The mean force does the work of both ends; what is lost beyond what is stored.
+  // The lost energy: the work of the mean of the forces at both ends, less the gain of stored energy.
   const Real rubbed = (damage_before - s.damage) * dot(before, rest) +
                       dot(scale(damage_before, before) + scale(s.damage, rest), slip);
   const auto where_damaged = [&](const Real &a) { return where_positive(damage_before, a, zero); };
@@ -406,14 +405,14 @@ PLATEN_INLINE CohesiveResponse<Real> FacetBond::operator()(State<Real> &s, const
   Springs<Real> e = springs(s, g, pose);
   const Real closing = positive_part(Real(-e.tension));
 
-  // Plastic slip of what is sound, by radial return; bonds that have failed have none.
+  // Plastic slip of the intact part, by radial return; bonds that have failed have none.
   const Real limit = shear_limit(g, closing, where_positive(s.broken, zero, e.sliding));
   const Real over =
       where_positive(e.tension, zero, positive_part(Real(e.sliding - limit))); // closed at 0 too
-  const Real share =
+  const Real fraction =
       where_positive(s.broken, zero, Real(over / where_positive(e.sliding, e.sliding, Real(zero + 1.0))));
-  if (any_positive(share)) {
-    const Triple<Real> by = scale(share, e.slip);
+  if (any_positive(fraction)) {
+    const Triple<Real> by = scale(fraction, e.slip);
     const auto back = [&](const Rotation<Real> &q) {
       return turned(Rotation<Real>{q.w, Real(-q.x), Real(-q.y), Real(-q.z)}, by);
     };
@@ -427,15 +426,16 @@ PLATEN_INLINE CohesiveResponse<Real> FacetBond::operator()(State<Real> &s, const
   slide(s, g, plane, closing, limit, damage_before);
   CohesiveResponse<Real> r = response(s, g, e, pose);
 
-  // Springs that lose a share: the product of both ends, the first of which is the second less the step.
+  // Springs that lose a fraction: the product of both ends; the first end is the second less the step.
   const Real lost = s.damage - damage_before;
   if (any_positive(lost)) {
-    State<Real> sound = s;
-    sound.damage = zero;
-    const CohesiveResponse<Real> whole = response(sound, g, e, pose);
-    const Real taken = dot(whole.force, m.travelled) - dot(whole.torque_i, m.turned_i) -
-                       dot(whole.torque_j, m.turned_j); // J
-    s.dissipated = s.dissipated + 0.5 * lost * positive_part(Real(2.0 * whole.energy - taken));
+    State<Real> undamaged = s;
+    undamaged.damage = zero;
+    const CohesiveResponse<Real> response_undamaged = response(undamaged, g, e, pose);
+    const Real taken = dot(response_undamaged.force, m.travelled) -
+                       dot(response_undamaged.torque_i, m.turned_i) -
+                       dot(response_undamaged.torque_j, m.turned_j); // J
+    s.dissipated = s.dissipated + 0.5 * lost * positive_part(Real(2.0 * response_undamaged.energy - taken));
   }
   r.failed_now = s.broken - broken_before;
   return r;
@@ -475,7 +475,7 @@ inline BondResponse<double> FacetBond::bond_response(const State<double> &s,
   r.tension_ratio =
       positive_part(e.tension) / (g.strength_factor * never_if_zero(parameters.tensile_strength));
   r.shear_ratio = e.sliding / shear_limit(g, positive_part(-e.tension), 1e300);
-  r.excess = (e.tension > 0 ? share_of_strength(g, e) : r.shear_ratio) - 1;
+  r.excess = (e.tension > 0 ? fraction_of_strength(g, e) : r.shear_ratio) - 1;
   r.energy = from.energy, r.normal_force = from.normal;
   r.shear = from.shear, r.shear_force = root(dot(from.shear, from.shear));
   return r;

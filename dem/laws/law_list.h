@@ -43,7 +43,7 @@ struct LawList {
   }
   // has(Law *) for the law at this place.
   template <class Has>
-  static bool ask(std::size_t place, const Has &has) {
+  static bool holds(std::size_t place, const Has &has) {
     std::size_t k = 0;
     bool yes = false;
     for_each([&](auto *law) { yes = yes || (k++ == place && has(law)); });

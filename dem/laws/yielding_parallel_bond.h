@@ -97,7 +97,8 @@ struct YieldingParallelBond {
   // For a SIMD vector of broken bonds: whether all are separated now and were before, so that no force acts
   // and no state changes.
   template <class Real>
-  bool stays_apart(const State<Real> &s, const CohesiveGeometry<Real> &g, const Triple<Real> &distance) const;
+  bool stays_separated(const State<Real> &s, const CohesiveGeometry<Real> &g,
+                       const Triple<Real> &distance) const;
   // The step (call operator) for such a SIMD vector; it needs no orientations.
   template <class Real>
   CohesiveResponse<Real> advance_broken(State<Real> &s, const CohesiveGeometry<Real> &g,
@@ -112,8 +113,8 @@ struct YieldingParallelBond {
                                      const CohesiveMotion<double> &m) const;
   // The same, force and stored energy alone.
   template <class Real>
-  HeldByBond<Real> held(const State<Real> &s, const CohesiveGeometry<Real> &g,
-                        const BondMotion<Real> &pose) const;
+  ForceAndEnergy<Real> force_and_energy(const State<Real> &s, const CohesiveGeometry<Real> &g,
+                                        const BondMotion<Real> &pose) const;
   // J, dissipated by plastic closing.
   template <class Real>
   Real plastic_work(const State<Real> &s, const CohesiveGeometry<Real> &g) const {
@@ -122,8 +123,8 @@ struct YieldingParallelBond {
 
 private:
   template <class Real>
-  BondResponse<Real> whole(const Real &plastic, const CohesiveGeometry<Real> &g, const BondMotion<Real> &pose,
-                           Triple<Real> &slip) const;
+  BondResponse<Real> intact(const Real &plastic, const CohesiveGeometry<Real> &g,
+                            const BondMotion<Real> &pose, Triple<Real> &slip) const;
   template <class Real>
   BondResponse<Real> broken(const State<Real> &s, const CohesiveGeometry<Real> &g,
                             const Triple<Real> &distance) const;
@@ -132,15 +133,15 @@ private:
   template <class Real>
   static Real reached(const BondResponse<Real> &bond);
   template <class Real>
-  static void tell_whole(const BondResponse<Real> &bond, const Real &tension, CohesiveResponse<Real> &r);
+  static void write_response(const BondResponse<Real> &bond, const Real &tension, CohesiveResponse<Real> &r);
 };
 
 // As ParallelBond::turning, with the force of the plastic closing added.
 template <class Real>
-PLATEN_INLINE BondResponse<Real> YieldingParallelBond::whole(const Real &plastic,
-                                                             const CohesiveGeometry<Real> &g,
-                                                             const BondMotion<Real> &pose,
-                                                             Triple<Real> &slip) const {
+PLATEN_INLINE BondResponse<Real> YieldingParallelBond::intact(const Real &plastic,
+                                                              const CohesiveGeometry<Real> &g,
+                                                              const BondMotion<Real> &pose,
+                                                              Triple<Real> &slip) const {
   const Parameters &p = parameters;
   const Real area_stiffness = g.area * g.normal_stiffness, kn = g.normal_stiffness;
   const BondGeometry<Real> bond{g.reference, g.rest_length, g.lever, kn, g.radius, g.strength_factor};
@@ -185,8 +186,8 @@ PLATEN_INLINE BondResponse<Real> YieldingParallelBond::broken(const State<Real> 
 }
 
 template <class Real>
-PLATEN_INLINE void YieldingParallelBond::tell_whole(const BondResponse<Real> &bond, const Real &tension,
-                                                    CohesiveResponse<Real> &r) {
+PLATEN_INLINE void YieldingParallelBond::write_response(const BondResponse<Real> &bond, const Real &tension,
+                                                        CohesiveResponse<Real> &r) {
   r.force = bond.force, r.torque_i = bond.torque_i, r.torque_j = bond.torque_j, r.shear = bond.shear;
   r.normal = bond.normal_force, r.energy = bond.energy, r.tension = tension;
   r.failed_now = tension * 0.0;
@@ -213,11 +214,11 @@ PLATEN_INLINE bool YieldingParallelBond::advance_intact(State<Real> &s, const Co
   const Real elastic = g.normal_stiffness * (g.rest_length - length);
   const Real yield = yields(s.plastic, elastic), plastic = s.plastic + yield;
   Triple<Real> slip;
-  const BondResponse<Real> bond = whole(plastic, g, pair.pose(), slip);
+  const BondResponse<Real> bond = intact(plastic, g, pair.pose(), slip);
   if (!all_positive(Real(-bond.excess))) return false;
   yielded = any_positive(yield);
   s.plastic = plastic;
-  tell_whole(bond, Real(plastic - elastic), r);
+  write_response(bond, Real(plastic - elastic), r);
   return true;
 }
 
@@ -230,9 +231,9 @@ PLATEN_INLINE CohesiveResponse<Real> YieldingParallelBond::operator()(State<Real
   const Real zero = elastic * 0.0, one = zero + 1.0;
   s.plastic = s.plastic + yields(s.plastic, elastic);
   Triple<Real> slip;
-  const BondResponse<Real> bond = whole(s.plastic, g, {m.distance, m.turn_i, m.turn_j}, slip);
+  const BondResponse<Real> bond = intact(s.plastic, g, {m.distance, m.turn_i, m.turn_j}, slip);
   CohesiveResponse<Real> r;
-  tell_whole(bond, Real(s.plastic - elastic), r);
+  write_response(bond, Real(s.plastic - elastic), r);
   const Real was_broken = s.broken;
   const Real breaking = where_positive(was_broken, zero, reached(bond));
   if (!any_positive(Real(was_broken + breaking))) return r;
@@ -253,7 +254,7 @@ PLATEN_INLINE CohesiveResponse<Real> YieldingParallelBond::operator()(State<Real
   const Triple<Real> carried = plane.carried(s.slider);
   const Triple<Real> spring = choose(was_broken, carried, choose(breaks, slip, nothing));
   const Real cap = grain_friction * positive_part(Real(elastic - s.plastic)); // Pa
-  const Real let_slip = slipping_share(spring, ks, cap);
+  const Real let_slip = slipping_fraction(spring, ks, cap);
   s.slider = scale(Real(1.0 - let_slip), spring);
   const BondResponse<Real> contact = broken(s, g, m.distance);
 
@@ -278,9 +279,10 @@ PLATEN_INLINE CohesiveResponse<Real> YieldingParallelBond::operator()(State<Real
 }
 
 template <class Real>
-PLATEN_INLINE bool YieldingParallelBond::stays_apart(const State<Real> &s, const CohesiveGeometry<Real> &g,
-                                                     const Triple<Real> &distance) const {
-  return are_apart(g, distance, s.plastic, s.slider);
+PLATEN_INLINE bool YieldingParallelBond::stays_separated(const State<Real> &s,
+                                                         const CohesiveGeometry<Real> &g,
+                                                         const Triple<Real> &distance) const {
+  return are_separated(g, distance, s.plastic, s.slider);
 }
 
 template <class Real>
@@ -293,20 +295,19 @@ PLATEN_INLINE CohesiveResponse<Real> YieldingParallelBond::advance_broken(
   plane.take_from_the_middle(m.moved);
   const Triple<Real> carried = plane.carried(s.slider), before = carried - plane.moved;
   const Real cap = grain_friction * positive_part(Real(elastic - s.plastic)); // Pa
-  const Real let_slip = slipping_share(carried, ks, cap);
+  const Real let_slip = slipping_fraction(carried, ks, cap);
   s.slider = scale(Real(1.0 - let_slip), carried);
   s.dissipated = s.dissipated + 0.5 * g.area * ks * dot(before + s.slider, scale(let_slip, carried));
   CohesiveResponse<Real> r;
-  tell_whole(broken(s, g, m.distance), Real(s.plastic - elastic), r);
+  write_response(broken(s, g, m.distance), Real(s.plastic - elastic), r);
   return r;
 }
 
 template <class Real>
-PLATEN_INLINE HeldByBond<Real> YieldingParallelBond::held(const State<Real> &s,
-                                                          const CohesiveGeometry<Real> &g,
-                                                          const BondMotion<Real> &pose) const {
+PLATEN_INLINE ForceAndEnergy<Real> YieldingParallelBond::force_and_energy(
+    const State<Real> &s, const CohesiveGeometry<Real> &g, const BondMotion<Real> &pose) const {
   Triple<Real> slip;
-  const BondResponse<Real> bond = whole(s.plastic, g, pose, slip);
+  const BondResponse<Real> bond = intact(s.plastic, g, pose, slip);
   if (!any_positive(s.broken)) return {bond.force, bond.energy};
   const BondResponse<Real> contact = broken(s, g, pose.distance);
   return {{where_positive(s.broken, contact.force.x, bond.force.x),
@@ -319,7 +320,7 @@ inline BondResponse<double> YieldingParallelBond::bond_response(const State<doub
                                                                 const CohesiveGeometry<double> &g,
                                                                 const CohesiveMotion<double> &m) const {
   Triple<double> slip;
-  BondResponse<double> r = whole(s.plastic, g, {m.distance, m.turn_i, m.turn_j}, slip);
+  BondResponse<double> r = intact(s.plastic, g, {m.distance, m.turn_i, m.turn_j}, slip);
   if (s.broken > 0) {
     const BondResponse<double> contact = broken(s, g, m.distance);
     r.force = contact.force, r.torque_i = contact.torque_i, r.torque_j = contact.torque_j;

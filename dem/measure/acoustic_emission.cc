@@ -109,12 +109,12 @@ bool follows(const Magnitudes &range, const BValue &v) {
   if (!(v.b * length >= 1 && length >= decade_of_energy)) return false;
   constexpr double most_missing = 3; // -ln(0.05): events expected beyond the largest
   if (std::isinf(range.upper) && n * std::exp(-beta * reach) > most_missing) return false;
-  const double whole = -std::expm1(-beta * range.length());
+  const double total = -std::expm1(-beta * range.length());
   double before = 0;
   for (auto m = range.first; m != range.last; ++m) {
-    const double share = -std::expm1(-beta * (*m - range.limit)) / whole;
+    const double fraction = -std::expm1(-beta * (*m - range.limit)) / total;
     const double after = before + 1 / n;
-    if (std::abs(share - before) > allowed || std::abs(share - after) > allowed) return false;
+    if (std::abs(fraction - before) > allowed || std::abs(fraction - after) > allowed) return false;
     before = after;
   }
   return true;
@@ -157,7 +157,7 @@ BValue b_value(const std::vector<double> &magnitudes, const BValueRules &rules) 
   const auto from = [&](double m) { return std::lower_bound(sorted.begin(), sorted.end(), m); };
   best.limit = start;
   best.events = static_cast<double>(sorted.end() - from(start));
-  const double wanted = std::max<double>(std::max(2, rules.least_events), rules.least_share * best.events);
+  const double wanted = std::max<double>(std::max(2, rules.least_events), rules.least_fraction * best.events);
   if (best.events < wanted) return best;
   best.law = PowerLaw::not_followed;
   double most = wanted - 1;

@@ -47,10 +47,10 @@ double magnitude_of(double energy);
 std::vector<AcousticEvent> gather_events(std::vector<CrackPulse> cracks, const EventWindow &window);
 
 struct BValueRules {
-  double bin = 0.1;         // of magnitude: step of the limits of the range
-  double above_mode = 0.2;  // from the fullest bin to the first limit (Woessner and Wiemer 2005)
-  int least_events = 50;    // in the range
-  double least_share = 0.5; // fraction that the range contains of the events above the first limit
+  double bin = 0.1;            // of magnitude: step of the limits of the range
+  double above_mode = 0.2;     // from the fullest bin to the first limit (Woessner and Wiemer 2005)
+  int least_events = 50;       // in the range
+  double least_fraction = 0.5; // fraction that the range contains of the events above the first limit
   double limit = std::numeric_limits<double>::quiet_NaN(); // NaN: found from the fullest bin
 };
 
@@ -74,7 +74,7 @@ enum class PowerLaw {
 // rejected: its distance from the events (Kolmogorov and Smirnov, with fitted parameter: Stephens 1974) is
 // below the value that a tenth of such samples exceed; without an upper end the largest event is also as
 // large as in 95 % of such catalogues. The range must contain the rules' fraction of the events above the
-// first M_c, the rate must fall to a tenth over it and the energy grow tenfold: less is no power law.
+// first M_c, the rate must fall to a tenth over it and the energy grow tenfold: less shows no power law.
 struct BValue {
   double b = std::numeric_limits<double>::quiet_NaN(), error = b; // NaN if no law holds
   double limit = b;                                               // M_c; if no law holds, the first one

@@ -46,10 +46,10 @@ Vector3 small_force(const Bonds &b, std::size_t row, const SmallStrain &s) {
   return k.axial * s.stretch * s.normal + k.shear * s.slip;
 }
 
-EnergyShares energy_shares(const Particles &p, const Bonds &b, const std::vector<Vector3> &displacement,
+BondEnergies bond_energies(const Particles &p, const Bonds &b, const std::vector<Vector3> &displacement,
                            const std::vector<Vector3> &turn) {
-  return ordered_sum<EnergyShares>(b.size(), [&](std::size_t first, std::size_t last) {
-    EnergyShares sum;
+  return ordered_sum<BondEnergies>(b.size(), [&](std::size_t first, std::size_t last) {
+    BondEnergies sum;
     for (std::size_t row = first; row < last; ++row) {
       const BondStiffness k = b.stiffness(row);
       const SmallStrain s = small_strain(p, b, row, displacement, turn);
@@ -61,7 +61,7 @@ EnergyShares energy_shares(const Particles &p, const Bonds &b, const std::vector
   });
 }
 
-EnergyShares energy_shares(const Particles &p, const Bonds &b) {
+BondEnergies bond_energies(const Particles &p, const Bonds &b) {
   std::vector<Vector3> displacement(p.size()), turn(p.has_rotation() ? p.size() : 0);
   for (std::size_t i = 0; i < p.size(); ++i) {
     displacement[i] = p.position[i] - p.reference_position[i];
@@ -69,7 +69,7 @@ EnergyShares energy_shares(const Particles &p, const Bonds &b) {
     const Quaternion &q = (*p.orientation)[i];
     turn[i] = (q.w < 0 ? -2.0 : 2.0) * vector_part(q);
   }
-  return energy_shares(p, b, displacement, turn);
+  return bond_energies(p, b, displacement, turn);
 }
 
 NetworkModuli network_moduli(const Bonds &bonds, double volume) {

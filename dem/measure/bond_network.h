@@ -12,10 +12,10 @@ namespace platen::dem {
 
 // J. Bending includes the shear springs: in a beam the two are one, the work of its end moments (Andre et al.
 // 2012, section 5.2.1).
-struct EnergyShares {
+struct BondEnergies {
   double axial = 0, bending = 0, torsion = 0;
   double total() const { return axial + bending + torsion; }
-  EnergyShares &operator+=(const EnergyShares &b) {
+  BondEnergies &operator+=(const BondEnergies &b) {
     axial += b.axial, bending += b.bending, torsion += b.torsion;
     return *this;
   }
@@ -35,10 +35,10 @@ SmallStrain small_strain(const Particles &particles, const Bonds &bonds, std::si
 // Force on the first particle, N, by the tangent at rest.
 Vector3 small_force(const Bonds &bonds, std::size_t row, const SmallStrain &strain);
 
-EnergyShares energy_shares(const Particles &particles, const Bonds &bonds,
+BondEnergies bond_energies(const Particles &particles, const Bonds &bonds,
                            const std::vector<Vector3> &displacement, const std::vector<Vector3> &turn);
 // The same from the present positions; rotations must be small.
-EnergyShares energy_shares(const Particles &particles, const Bonds &bonds);
+BondEnergies bond_energies(const Particles &particles, const Bonds &bonds);
 
 struct NetworkModuli {
   double young_voigt = 0, poisson_voigt = 0; // affine motion: an upper bound on E; Pa, 1

@@ -38,7 +38,7 @@ CrackPlane plane_through(const std::vector<int> &members, const std::vector<Vect
   return plane;
 }
 
-// Fractions of broken bonds around one, below which it is left out: in the first pass and in the next ones.
+// A broken bond is left out if a smaller fraction of the bonds around it is broken: first and next passes.
 constexpr std::array<double, 5> least_damage{0, 0.5, 0.6, 0.7, 0.8};
 
 struct Midpoints {
@@ -124,8 +124,8 @@ CrackPlanes sum_up(const std::vector<CrackPlane> &planes, const Bonds &b) {
   s.count = static_cast<double>(planes.size());
   s.broken = static_cast<double>(std::count_if(b.state.begin(), b.state.end(), is_broken));
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  s.share = s.broken > 0 ? inside / s.broken : none;
-  s.steep_share = s.broken > 0 ? steep / s.broken : none;
+  s.fraction = s.broken > 0 ? inside / s.broken : none;
+  s.steep_fraction = s.broken > 0 ? steep / s.broken : none;
   s.mean_inclination = inside > 0 ? inclination / inside : none;
   if (!planes.empty()) s.largest = planes.front();
   return s;
@@ -135,8 +135,8 @@ void CrackPlanes::describe(Archive &archive) {
   archive.version(1);
   archive("count", count, "1", any_value());
   archive("broken_bonds", broken, "1", any_value());
-  archive("share", share, "1", any_value());
-  archive("steep_share", steep_share, "1", any_value());
+  archive("share", fraction, "1", any_value());
+  archive("steep_share", steep_fraction, "1", any_value());
   archive("mean_inclination", mean_inclination, "rad", any_value());
   archive("largest_bonds", largest.bonds, "1", any_value());
   archive("largest_centre", largest.centre, "m", any_value());

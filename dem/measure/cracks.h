@@ -53,8 +53,8 @@ struct CrackPlanes {
   static constexpr double steep = 0.26; // rad: 15 degrees
   double count = 0;
   double broken = 0;           // all broken bonds
-  double share = 0;            // fraction of them in planes; NaN without broken bonds
-  double steep_share = 0;      // fraction of them in planes within `steep` of the axis
+  double fraction = 0;         // fraction of them in planes; NaN without broken bonds
+  double steep_fraction = 0;   // fraction of them in planes within `steep` of the axis
   double mean_inclination = 0; // rad, weighted by bonds; NaN without planes
   CrackPlane largest;
   void describe(Archive &archive);

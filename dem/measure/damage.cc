@@ -50,7 +50,7 @@ std::vector<double> bond_losses(const Bonds &b) {
   std::vector<double> losses(b.initial_count());
   for (std::size_t k = 0; k < losses.size(); ++k)
     losses[k] = is_broken(b.state[k]);
-  if (damaged_rows_apart(b.law))
+  if (damaged_rows_separate(b.law))
     for (std::size_t k = 0; k < b.size(); ++k)
       losses[static_cast<std::size_t>(b.record[k])] = b.damage(k);
   return losses;

@@ -15,8 +15,8 @@ bool is_broken(int state); // of Bonds::state
 // Midpoint of the bond of a record, m.
 Vector3 reference_midpoint(const Particles &particles, const Bonds &bonds, std::size_t record);
 
-// How far each initial bond is lost: 0 whole, 1 broken; of laws that damage many bonds long before they fail
-// (damaged_rows_apart), its damage. Of this rank's rows: Model::bond_losses() has those of all.
+// Loss of each initial bond: 0 intact, 1 broken; with laws that damage many bonds long before they fail
+// (damaged_rows_separate), its damage. For the rows of this rank; Model::bond_losses() returns all losses.
 std::vector<double> bond_losses(const Bonds &bonds);
 
 // Mean loss of the initial bonds with their reference midpoint in a region; NaN if the region has no bond.

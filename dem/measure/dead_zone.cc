@@ -13,16 +13,16 @@ namespace {
 std::vector<IndexPair> neighbours(const Specimen &s, double gap) {
   std::vector<IndexPair> pairs =
       near_pairs(s.centre.data(), s.radius.data(), s.size(), gap * largest_radius(s));
-  const auto apart = [&](const IndexPair &p) {
+  const auto separated = [&](const IndexPair &p) {
     const double one = s.radius[p.first], other = s.radius[p.second];
     return norm(s.centre[p.second] - s.centre[p.first]) - one - other >= gap * std::min(one, other);
   };
-  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), apart), pairs.end());
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), separated), pairs.end());
   return pairs;
 }
 
 // Displacement of each sphere relative to the platen of an end, m.
-std::vector<double> beside(const Specimen &s, const MotionAfterPeak &motion, End end) {
+std::vector<double> motion_to_platen(const Specimen &s, const MotionAfterPeak &motion, End end) {
   const PlatenMotion &platen = motion.platens[end];
   const Vector3 middle{0, 0, end == top_end ? s.shape.height : 0};
   std::vector<double> moved(s.size());
@@ -62,7 +62,7 @@ DeadZones find_dead_zones(const Specimen &before, const MotionAfterPeak &motion,
   const double margin = rules.reach * mean_radius(before);
   std::array<std::vector<double>, 2> moved;
   for (const End end : {bottom_end, top_end})
-    moved[end] = beside(before, motion, end);
+    moved[end] = motion_to_platen(before, motion, end);
   for (const End end : {bottom_end, top_end}) {
     const std::vector<double> &here = moved[end], &there = moved[end == top_end ? bottom_end : top_end];
     std::vector<char> dead(before.size());

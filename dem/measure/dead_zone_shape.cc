@@ -26,10 +26,10 @@ struct Section {
   double height = 0;             // m, mean of all its spheres
   double x = 0, y = 0;           // m, centre of the dead part
   double xx = 0, yy = 0, xy = 0; // m^2, scatter about it
-  double share() const { return all > 0 ? volume / all : 0; }
-  double roundness() const { // of its second moments
-    const double mean = 0.5 * (xx + yy), apart = std::hypot(0.5 * (xx - yy), xy);
-    return mean + apart > 0 ? std::sqrt(std::max(0.0, (mean - apart) / (mean + apart))) : 0;
+  double fraction() const { return all > 0 ? volume / all : 0; }
+  double roundness() const { // from its second moments
+    const double mean = 0.5 * (xx + yy), difference = std::hypot(0.5 * (xx - yy), xy);
+    return mean + difference > 0 ? std::sqrt(std::max(0.0, (mean - difference) / (mean + difference))) : 0;
   }
 };
 
@@ -81,29 +81,30 @@ Line line_through(const std::vector<Section> &bins, std::size_t from, std::size_
 }
 
 double equivalent_radius(const Section &s) { // over that of the specimen
-  return std::sqrt(s.share());
+  return std::sqrt(s.fraction());
 }
 Line flank(const std::vector<Section> &bins, std::size_t from, std::size_t to) {
   return line_through(bins, from, to, equivalent_radius, [](const Section &) { return 1.0; });
 }
 
-// Bins [from, to) of a flank up to the tip: of those that the rim cuts only the last, or more to have three.
+// Bins [from, to) of a flank up to the tip. Of the bins that the rim cuts it contains only the last one, or
+// more if there would be fewer than three bins.
 struct Span {
-  std::size_t from = 0, to = 0, whole = 0; // `whole`: number of bins that the rim cuts
+  std::size_t from = 0, to = 0, cut_by_rim = 0; // the last: number of bins that the rim cuts
 };
 Span span_of_flank(const std::vector<Section> &bins, double tip) {
   Span s;
   while (s.to < bins.size() && equivalent_radius(bins[s.to]) >= tip)
     ++s.to;
-  while (s.whole < s.to && equivalent_radius(bins[s.whole]) > full)
-    ++s.whole;
-  s.from = s.whole > 0 ? std::min(s.whole - 1, s.to - std::min(s.to, least_bins)) : 0;
+  while (s.cut_by_rim < s.to && equivalent_radius(bins[s.cut_by_rim]) > full)
+    ++s.cut_by_rim;
+  s.from = s.cut_by_rim > 0 ? std::min(s.cut_by_rim - 1, s.to - std::min(s.to, least_bins)) : 0;
   return s;
 }
 
 // Slope of the lower half over that of the upper; the halves have one bin in common, or two if n is even.
 double straightness(const std::vector<Section> &bins, const Span &span) {
-  const auto [from, to, whole] = span;
+  const auto [from, to, cut_by_rim] = span;
   const std::size_t n = to - from;
   const double lower = -flank(bins, from, from + n / 2 + 1).slope,
                upper = -flank(bins, from + (n - 1) / 2, to).slope;
@@ -174,7 +175,7 @@ DeadZone measure_dead_zone(const Specimen &before, const std::vector<char> &memb
   d.verdict = DeadZoneVerdict::nothing;
   if (d.spheres == 0) return d;
 
-  const auto [from, to, whole] = span_of_flank(bins, rules.tip);
+  const auto [from, to, cut_by_rim] = span_of_flank(bins, rules.tip);
   const double highest = static_cast<double>(to) * thickness;
   d.height = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -191,11 +192,11 @@ DeadZone measure_dead_zone(const Specimen &before, const std::vector<char> &memb
   d.tilt = std::acos(std::clamp(-cone.axis.z, -1.0, 1.0));
   d.roundness = roundness(bins, from, to);
   d.straightness = to - from < few_bins ? straightness(fine, span_of_flank(fine, rules.tip))
-                                        : straightness(bins, {from, to, whole});
+                                        : straightness(bins, {from, to, cut_by_rim});
   d.overlap = overlap(points, cone, highest);
   d.confidence = d.roundness * d.straightness * d.overlap;
   d.verdict = judge(d, width, rules);
-  if (2 * whole > to) d.verdict = DeadZoneVerdict::blunt;
+  if (2 * cut_by_rim > to) d.verdict = DeadZoneVerdict::blunt;
   if (d.volume_fraction >= rules.largest_volume) d.verdict = DeadZoneVerdict::large;
   if (end == top_end) {
     d.apex.z = before.shape.height - d.apex.z;

@@ -11,13 +11,14 @@ namespace {
 
 constexpr double least_column = 0.05;       // of the volume
 constexpr double crushed_end = 0.4;         // damage
-constexpr double held_end = 0.25;           // spread
+constexpr double restrained_end = 0.25;     // spread
 constexpr double most_of_it = 0.5;          // of all broken bonds
 constexpr double largest_of_shear = 1.13;   // rad: 65 degrees
 constexpr double least_broken_around = 0.1; // of the bonds that are not within dead zones
-constexpr double as_good_as_whole = 0.02;   // fraction of broken bonds
+constexpr double practically_intact = 0.02; // fraction of broken bonds
 
-// Comparisons are false if a measure is not known (NaN), without a floating-point exception.
+// In all rules, comparisons with an unknown measure (NaN) are false and raise no floating-point exception.
+
 // A plane through the whole specimen with at least half of all broken bonds.
 bool one_plane(const FailureMeasures &m) {
   return m.planes.count > 0 && std::isgreaterequal(m.planes.largest.bonds, most_of_it * m.planes.broken) &&
@@ -43,10 +44,11 @@ void require_broken(std::array<DeadZone, 2> &dead, const DeadZones &zones, const
       zone.verdict = DeadZoneVerdict::unbroken;
 }
 
-// Planes of failed bonds against all that is lost: of facets most is damage outside of them.
+// Relates the planes of failed bonds to the losses of all bonds. With facets, most of the loss is damage
+// outside of the planes.
 void count_losses(CrackPlanes &planes, double lost) {
   if (!(lost > 0)) return;
-  planes.steep_share *= planes.broken / lost;
+  planes.steep_fraction *= planes.broken / lost;
   planes.broken = lost;
 }
 
@@ -63,8 +65,8 @@ struct FormerCone {
     std::int64_t verdict = 0;
     archive("verdict", verdict, "1", any_value());
     double number = 0;
-    for (const char *share : {"spheres", "volume_fraction", "overlap", "roundness", "confidence"})
-      archive(share, number, "1", any_value());
+    for (const char *fraction : {"spheres", "volume_fraction", "overlap", "roundness", "confidence"})
+      archive(fraction, number, "1", any_value());
     for (const char *length : {"height", "apex_depth"})
       archive(length, number, "m", any_value());
     for (const char *angle : {"half_angle", "tilt"})
@@ -83,7 +85,7 @@ Specimen specimen_before(const Particles &p, const Shape &shape) {
 }
 
 FailureMeasures measure_failure(const Particles &p, const Bonds &b, const Shape &shape,
-                                const Soundness &soundness, const MotionAfterPeak &motion,
+                                const IntactRules &intact_rules, const MotionAfterPeak &motion,
                                 std::vector<double> losses) {
   if (losses.empty()) losses = bond_losses(b);
   FailureMeasures m;
@@ -94,10 +96,10 @@ FailureMeasures measure_failure(const Particles &p, const Bonds &b, const Shape 
   m.damage = damage_by_region(p, b, shape, losses);
   m.end_spread = end_spread(skin_opening(p, b, shape));
   m.planes = sum_up(find_crack_planes(p, b), b);
-  for (const SoundPiece &piece : find_sound_pieces(p, b, shape, soundness))
-    m.columns += piece.spans() && piece.share >= least_column;
+  for (const IntactPiece &piece : find_intact_pieces(p, b, shape, intact_rules))
+    m.columns += piece.spans() && piece.volume_fraction >= least_column;
   count_losses(m.planes, std::accumulate(losses.begin(), losses.end(), 0.0));
-  m.broken_share = m.planes.broken / static_cast<double>(losses.size());
+  m.broken_fraction = m.planes.broken / static_cast<double>(losses.size());
   m.width = 2 * std::sqrt(shape.cross_section() / pi);
   m.height = shape.height;
   return m;
@@ -110,12 +112,12 @@ FailureVerdict judge_failure(const FailureMeasures &m) {
             DecidedBy::one_plane};
   if (two_cones(m.dead[bottom_end], m.dead[top_end])) return {FailurePattern::cones, DecidedBy::two_cones};
   if (m.columns >= 2) return {FailurePattern::splitting, DecidedBy::columns};
-  if (std::isgreater(m.planes.steep_share, most_of_it))
+  if (std::isgreater(m.planes.steep_fraction, most_of_it))
     return {FailurePattern::splitting, DecidedBy::steep_planes};
-  if (m.broken_share <= as_good_as_whole) return {FailurePattern::none, DecidedBy::few_broken};
-  const bool held = std::isless(m.end_spread, held_end); // false if no skin is left
+  if (m.broken_fraction <= practically_intact) return {FailurePattern::none, DecidedBy::few_broken};
+  const bool restrained = std::isless(m.end_spread, restrained_end); // false if no skin is left
   const double worse_end = m.damage.worse_end();
-  if (std::isgreater(worse_end, crushed_end) && !held)
+  if (std::isgreater(worse_end, crushed_end) && !restrained)
     return {FailurePattern::crushing, DecidedBy::crushed_end};
   return {};
 }
@@ -139,7 +141,7 @@ void FailureMeasures::describe(Archive &archive) {
   archive.part("crack_planes", planes);
   archive("end_spread", end_spread, "1", any_value());
   archive("columns", columns, "1", any_value());
-  archive("broken_share", broken_share, "1", any_value());
+  archive("broken_share", broken_fraction, "1", any_value());
   archive("width", width, "m", any_value());
   archive("height", height, "m", any_value());
 }

@@ -18,10 +18,10 @@ struct FailureMeasures {
                         std::numeric_limits<double>::quiet_NaN()};
   std::array<DeadZone, 2> dead;                              // [bottom_end], [top_end]: cones by displacement
   double opening = std::numeric_limits<double>::quiet_NaN(); // m, of the skin since the peak, U (dead_zone.h)
-  CrackPlanes planes;                                        // shares of all losses
+  CrackPlanes planes;                                        // as fractions of all losses
   double end_spread = std::numeric_limits<double>::quiet_NaN(); // of the skin (damage.h)
-  double columns = 0; // sound pieces from platen to platen, each at least a twentieth of the volume
-  double broken_share = std::numeric_limits<double>::quiet_NaN(); // mean loss of all bonds
+  double columns = 0; // intact pieces from platen to platen, each at least a twentieth of the volume
+  double broken_fraction = std::numeric_limits<double>::quiet_NaN(); // mean loss of all bonds
   double width = 0, height = 0; // m, of the specimen; width of a circle with the area of its section
   void describe(Archive &archive);
 };
@@ -30,7 +30,7 @@ Specimen specimen_before(const Particles &particles, const Shape &shape);
 // Without a motion there are no cones by displacement. Ends, middle and the surroundings of cones are judged
 // by losses (damage.h; empty: of these bonds), planes and pieces by broken bonds.
 FailureMeasures measure_failure(const Particles &particles, const Bonds &bonds, const Shape &shape,
-                                const Soundness &soundness = {}, const MotionAfterPeak &motion = {},
+                                const IntactRules &intact_rules = {}, const MotionAfterPeak &motion = {},
                                 std::vector<double> losses = {});
 
 enum class FailurePattern : std::int64_t { none, cones, shear_plane, splitting, crushing, undecided };

@@ -10,13 +10,13 @@
 namespace platen::dem {
 namespace {
 
-std::vector<char> sound_spheres(const BondCounts &counts, double share) {
-  std::vector<char> sound(counts.intact.size(), 0);
-  for (std::size_t i = 0; i < sound.size(); ++i) {
+std::vector<char> intact_spheres(const BondCounts &counts, double fraction) {
+  std::vector<char> intact(counts.intact.size(), 0);
+  for (std::size_t i = 0; i < intact.size(); ++i) {
     const int all = counts.intact[i] + counts.broken[i];
-    sound[i] = all > 0 && counts.intact[i] >= share * all;
+    intact[i] = all > 0 && counts.intact[i] >= fraction * all;
   }
-  return sound;
+  return intact;
 }
 
 } // namespace
@@ -80,23 +80,23 @@ Fragments find_fragments(const Particles &p, const Bonds *bonds) {
   return f;
 }
 
-std::vector<SoundPiece> find_sound_pieces(const Particles &p, const Bonds &b, const Shape &shape,
-                                          const Soundness &soundness) {
+std::vector<IntactPiece> find_intact_pieces(const Particles &p, const Bonds &b, const Shape &shape,
+                                            const IntactRules &intact_rules) {
   const BondCounts counts = bond_counts(p, b);
-  const std::vector<char> sound = sound_spheres(counts, soundness.share);
+  const std::vector<char> intact = intact_spheres(counts, intact_rules.fraction);
   DisjointSets sets(p.size());
   for (std::size_t k = 0; k < b.size(); ++k)
-    if (!b.has_failed(k) && sound[b.first[k]] && sound[b.second[k]]) sets.join(b.first[k], b.second[k]);
+    if (!b.has_failed(k) && intact[b.first[k]] && intact[b.second[k]]) sets.join(b.first[k], b.second[k]);
   double bonded_volume = 0;
   for (std::size_t i = 0; i < p.size(); ++i)
     if (counts.intact[i] + counts.broken[i] > 0) bonded_volume += sphere_volume(p.radius[i]);
 
-  std::vector<SoundPiece> pieces;
-  const double margin = soundness.reach * mean_radius(p);
-  for (const std::vector<int> &rows : sets.all(sound)) {
-    SoundPiece &piece = pieces.emplace_back();
+  std::vector<IntactPiece> pieces;
+  const double margin = intact_rules.reach * mean_radius(p);
+  for (const std::vector<int> &rows : sets.all(intact)) {
+    IntactPiece &piece = pieces.emplace_back();
     for (const int i : rows) {
-      piece.share += sphere_volume(p.radius[i]) / bonded_volume;
+      piece.volume_fraction += sphere_volume(p.radius[i]) / bonded_volume;
       const double z = p.reference_position[i].z, reach = p.radius[i] + margin;
       if (z < reach) piece.stands_on[bottom_end] = true;
       if (shape.height - z < reach) piece.stands_on[top_end] = true;

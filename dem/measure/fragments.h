@@ -1,4 +1,5 @@
-// Pieces connected by intact bonds: all of them, and the sound ones that still stand on the platens.
+// Pieces connected by intact bonds: all of them, and pieces of intact spheres that still stand on the
+// platens.
 #pragma once
 
 #include <array>
@@ -37,20 +38,20 @@ Fragments find_fragments(const Particles &particles, const Bonds *bonds);
 
 enum End { bottom_end = 0, top_end = 1 };
 
-// A sphere is sound if it had bonds and has kept a fraction `share` of them. It stands on a platen if its
-// reference surface is within `reach` mean radii of the end plane.
-struct Soundness {
-  double share = 0.7; // 1
-  double reach = 0.5; // mean radii
+// A sphere is intact if it had bonds and at least this `fraction` of them is intact. It stands on a platen if
+// its reference surface is within `reach` mean radii of the end plane.
+struct IntactRules {
+  double fraction = 0.7; // 1
+  double reach = 0.5;    // mean radii
 };
 
-// A piece of sound spheres connected by intact bonds.
-struct SoundPiece {
-  double share = 0;                              // fraction of the volume of all spheres that ever had a bond
+// A piece of intact spheres connected by intact bonds.
+struct IntactPiece {
+  double volume_fraction = 0;                    // of the volume of all spheres that ever had a bond
   std::array<bool, 2> stands_on{{false, false}}; // the platen of an End
   bool spans() const { return stands_on[bottom_end] && stands_on[top_end]; }
 };
-std::vector<SoundPiece> find_sound_pieces(const Particles &particles, const Bonds &bonds, const Shape &shape,
-                                          const Soundness &soundness = {});
+std::vector<IntactPiece> find_intact_pieces(const Particles &particles, const Bonds &bonds,
+                                            const Shape &shape, const IntactRules &intact_rules = {});
 
 } // namespace platen::dem

@@ -83,13 +83,13 @@ struct ThreePoints {
   double ligament_area() const { return breadth * ligament(); } // m^2
   // Deflection by shear over that by bending, Timoshenko's beam with the shear factor of Cowper (1966),
   // 10 (1 + nu) / (12 + 11 nu).
-  double shear_share(double poisson_ratio) const {
+  double shear_fraction(double poisson_ratio) const {
     return depth * depth / (span * span) * (12 + 11 * poisson_ratio) / 5;
   }
   // Deflection at mid-span under a flexural stress (Pa) of a beam with Young's modulus E (Pa), m: sigma L^2 /
   // (6 E d), plus the part by shear.
   double deflection(double stress, double young_modulus, double poisson_ratio) const {
-    return stress * span * span / (6 * young_modulus * depth) * (1 + shear_share(poisson_ratio));
+    return stress * span * span / (6 * young_modulus * depth) * (1 + shear_fraction(poisson_ratio));
   }
 };
 

@@ -67,8 +67,8 @@ public:
 
 private:
   double place(int k, std::size_t cell) const {
-    const double share = (static_cast<double>(cell) + 0.5) / static_cast<double>(cells_[k]);
-    return bounds_.low[k] + share * (bounds_.high[k] - bounds_.low[k]);
+    const double fraction = (static_cast<double>(cell) + 0.5) / static_cast<double>(cells_[k]);
+    return bounds_.low[k] + fraction * (bounds_.high[k] - bounds_.low[k]);
   }
   void fill(std::size_t layer) {
     Owned *to = &points_[layer * per_layer()];
@@ -122,7 +122,7 @@ struct Near {
   std::size_t point = 0;
 };
 
-std::vector<double> shares_of_layers(const Specimen &specimen, const Raster &raster, double unit) {
+std::vector<double> fractions_of_layers(const Specimen &specimen, const Raster &raster, double unit) {
   const std::vector<Owned> &points = raster.points();
   std::vector<double> part(specimen.size(), 0); // of the space of each sphere, in points
   const std::vector<char> at_hole = raster.at_hole();
@@ -174,15 +174,15 @@ std::vector<double> shares_of_layers(const Specimen &specimen, const Raster &ras
 }
 
 // The part of the shape within the outermost spheres across the axis; the spheres in its frame.
-Specimen enveloped(const Specimen &whole, int axis) {
-  Specimen s = whole;
+Specimen enveloped(const Specimen &full, int axis) {
+  Specimen s = full;
   if (s.shape.kind == ShapeKind::box) {
     const BoundingBox walls = bounding_box(s.shape), spheres = bounding_box(s);
     Vector3 low = walls.low, high = walls.high;
     for (const int k : {(axis + 1) % 3, (axis + 2) % 3})
       low[k] = std::max(low[k], spheres.low[k]), high[k] = std::min(high[k], spheres.high[k]);
     s.shape = box(high.x - low.x, high.y - low.y, high.z - low.z);
-    s.shape.notch = {std::max(0.0, whole.shape.notch.depth - low.z), whole.shape.notch.width};
+    s.shape.notch = {std::max(0.0, full.shape.notch.depth - low.z), full.shape.notch.width};
     for (Vector3 &c : s.centre)
       c -= {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), low.z};
     return s;
@@ -201,27 +201,27 @@ Specimen enveloped(const Specimen &whole, int axis) {
 
 } // namespace
 
-SolidSection solid_section(const Specimen &whole, int axis) {
+SolidSection solid_section(const Specimen &full, int axis) {
   SolidSection section;
-  if (whole.size() == 0) return section;
-  const Specimen specimen = enveloped(whole, axis);
-  const double reached = specimen.shape.volume() / whole.shape.volume(); // of the section
+  if (full.size() == 0) return section;
+  const Specimen specimen = enveloped(full, axis);
+  const double reached = specimen.shape.volume() / full.shape.volume(); // of the section
   const double unit = largest_radius(specimen);
   const Raster raster(specimen, axis, unit);
-  const std::vector<double> shares = shares_of_layers(specimen, raster, unit);
+  const std::vector<double> fractions = fractions_of_layers(specimen, raster, unit);
   const auto diameter = static_cast<std::size_t>(std::max(1.0, std::round(2 * unit / raster.layer_height())));
-  const bool short_one = shares.size() < 4 * diameter;
-  const std::size_t slice = short_one ? shares.size() : diameter, first = short_one ? 0 : diameter,
-                    last = shares.size() - first - slice;
+  const bool short_one = fractions.size() < 4 * diameter;
+  const std::size_t slice = short_one ? fractions.size() : diameter, first = short_one ? 0 : diameter,
+                    last = fractions.size() - first - slice;
   double sum = 0;
   for (std::size_t k = first; k <= last; ++k) {
-    double share = 0;
+    double fraction = 0;
     for (std::size_t l = k; l < k + slice; ++l)
-      share += shares[l];
-    share *= reached / static_cast<double>(slice);
-    sum += share;
-    section.least = std::isnan(section.least) ? share : std::min(section.least, share);
-    section.largest = std::isnan(section.largest) ? share : std::max(section.largest, share);
+      fraction += fractions[l];
+    fraction *= reached / static_cast<double>(slice);
+    sum += fraction;
+    section.least = std::isnan(section.least) ? fraction : std::min(section.least, fraction);
+    section.largest = std::isnan(section.largest) ? fraction : std::max(section.largest, fraction);
   }
   section.mean = sum / static_cast<double>(last - first + 1);
   return section;

@@ -67,9 +67,9 @@ double passing_time(const std::vector<double> &velocity, double step, double smo
     for (std::size_t k = 0; k < smooth.size(); ++k) {
       // Samples at the edge count by their fraction in the window, so that the time does not jump.
       const double t = static_cast<double>(k) * step - shift, rim = reach * smoothing - std::abs(t - time);
-      const double share = std::min(1.0, std::max(0.0, rim / step + 0.5));
-      sum += share * smooth[k];
-      moment += share * smooth[k] * t;
+      const double fraction = std::min(1.0, std::max(0.0, rim / step + 0.5));
+      sum += fraction * smooth[k];
+      moment += fraction * smooth[k] * t;
     }
     time = moment / sum;
   }

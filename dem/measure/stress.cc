@@ -131,7 +131,7 @@ bool Region::holds(const Vector3 &x) const {
   return std::abs(x.x) <= 0.5 * shape.width_x && std::abs(x.y) <= 0.5 * shape.width_y;
 }
 
-double Region::share_inside(const Vector3 &from, const Vector3 &to) const {
+double Region::fraction_inside(const Vector3 &from, const Vector3 &to) const {
   double low = 0, high = 1;
   clip(from.z, to.z, bottom, bottom + shape.height, low, high);
   if (shape.kind == ShapeKind::cylinder) {
@@ -149,10 +149,10 @@ Tensor mean_stress(const Region &region, const Particles &p, const Bonds &b,
     Sum part;
     for (std::size_t row = first; row < last; ++row) {
       const Vector3 &from = p.reference_position[b.first[row]], d = b.reference[row];
-      const double share = region.share_inside(from, from + d);
-      if (share == 0) continue;
+      const double fraction = region.fraction_inside(from, from + d);
+      if (fraction == 0) continue;
       const Vector3 force = small_force(b, row, small_strain(p, b, row, displacement, turn));
-      part.t += share * eigen(d) * eigen(force).transpose();
+      part.t += fraction * eigen(d) * eigen(force).transpose();
     }
     return part;
   });

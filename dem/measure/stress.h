@@ -34,7 +34,7 @@ struct Region {
   double bottom = 0;
   bool holds(const Vector3 &point) const;
   // Fraction of the path from `from` to `to` that lies inside.
-  double share_inside(const Vector3 &from, const Vector3 &to) const;
+  double fraction_inside(const Vector3 &from, const Vector3 &to) const;
 };
 
 using Tensor = std::array<std::array<double, 3>, 3>;

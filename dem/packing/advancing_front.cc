@@ -49,8 +49,8 @@ bool touching_places(const Ball &a, const Ball &b, const Ball &c, double r, Vect
   const double y = (from_a * from_a - from_c * from_c + i * i + j * j - 2 * i * x) / (2 * j);
   const double height_squared = from_a * from_a - x * x - y * y;
   if (height_squared < 0) return false;
-  const Vector3 foot = a.centre + x * ex + y * ey, up = std::sqrt(height_squared) * cross(ex, ey);
-  place[0] = foot + up, place[1] = foot - up;
+  const Vector3 in_plane = a.centre + x * ex + y * ey, up = std::sqrt(height_squared) * cross(ex, ey);
+  place[0] = in_plane + up, place[1] = in_plane - up;
   return true;
 }
 

@@ -32,7 +32,7 @@ double integral(double from, double to, const Function &f) {
 }
 
 // Common area (m^2) of two discs of radii a and b; d is the distance of their centres, m.
-double shared_area_of_discs(double a, double b, double d) {
+double common_area_of_discs(double a, double b, double d) {
   const double small = std::min(a, b);
   if (d <= std::abs(a - b)) return pi * small * small;
   if (d >= a + b) return 0;
@@ -83,12 +83,12 @@ void judge_contacts(const Specimen &s, const QualityMeasure &measure, PackingQua
   const double margin = measure.core_margin * quality.mean_radius;
   const bool core = has_core(core_of(s.shape, margin));
   const auto in_core = [&](const Vector3 &p) { return wall_clearance(s.shape, p) >= margin; };
-  std::vector<int> held(s.size());
+  std::vector<int> contacts(s.size());
   std::vector<Vector3> axes;
   std::size_t overlapping = 0, core_ends = 0;
   for (const TouchingPair &pair : touching_pairs(s, tolerance)) {
     const int i = pair.first, j = pair.second;
-    ++quality.contacts, ++held[i], ++held[j];
+    ++quality.contacts, ++contacts[i], ++contacts[j];
     core_ends += (in_core(s.centre[i]) ? 1 : 0) + (in_core(s.centre[j]) ? 1 : 0);
     if (!core || in_core(0.5 * (s.centre[i] + s.centre[j]))) axes.push_back(s.centre[j] - s.centre[i]);
     if (pair.gap >= 0) continue;
@@ -100,8 +100,8 @@ void judge_contacts(const Specimen &s, const QualityMeasure &measure, PackingQua
   quality.coordination_number = 2.0 * static_cast<double>(quality.contacts) / static_cast<double>(s.size());
   for (std::size_t i = 0; i < s.size(); ++i) {
     if (core && in_core(s.centre[i])) ++quality.core_spheres;
-    if (wall_clearance(s.shape, s.centre[i]) - s.radius[i] <= tolerance) ++held[i];
-    if (held[i] < contacts_that_hold) ++quality.rattlers;
+    if (wall_clearance(s.shape, s.centre[i]) - s.radius[i] <= tolerance) ++contacts[i];
+    if (contacts[i] < contacts_that_hold) ++quality.rattlers;
   }
   quality.core_coordination_number =
       quality.core_spheres > 0 ? static_cast<double>(core_ends) / static_cast<double>(quality.core_spheres)
@@ -142,7 +142,7 @@ double clipped_volume(const Vector3 &c, double r, const Shape &shape) {
   const auto slice = [&](double t) { // at the height r sin t, where the slice is a disc of radius r cos t
     const double disc = r * std::cos(t);
     return disc * (shape.kind == ShapeKind::cylinder
-                       ? shared_area_of_discs(disc, shape.radius, from_axis)
+                       ? common_area_of_discs(disc, shape.radius, from_axis)
                        : area_in_rectangle(c.x, c.y, disc, 0.5 * shape.width_x, 0.5 * shape.width_y));
   };
   // The slices have a kink where their rim first touches the wall; no piece of the integral crosses it.

@@ -137,9 +137,9 @@ void sort_rows(Found &found, int rows) {
     found.order[next[most - found.count(r)]++] = r;
 }
 
-// Grows by an eighth more than needed; a plain vector would double.
+// Reserves an eighth more than needed, whereas a plain vector would double its memory.
 template <class T>
-void make_room(AlignedVector<T> &column, std::size_t size) {
+void resize_column(AlignedVector<T> &column, std::size_t size) {
   if (column.capacity() < size) {
     AlignedVector<T>().swap(column);
     column.reserve(size + size / 8);
@@ -159,25 +159,26 @@ void write(const std::vector<SoftBall> &balls, int first, int rows, const Found 
     to.row.push_back(first + found.order[r]);
     if (r % lanes == 0) to.steps.push_back(found.count(found.order[r])), steps += to.steps.back();
   }
-  make_room(to.partner, soft_group * steps), make_room(to.apart, 4 * soft_group * steps);
+  resize_column(to.partner, soft_group * steps), resize_column(to.separation, 4 * soft_group * steps);
   unsigned *partner = to.partner.data();
-  float *apart = to.apart.data();
+  float *separation = to.separation.data();
   for (int r = 0; r < rows; r += lanes)
-    for (int k = 0; k < to.steps[r / lanes]; ++k, partner += lanes, apart += 4 * lanes)
+    for (int k = 0; k < to.steps[r / lanes]; ++k, partner += lanes, separation += 4 * lanes)
       for (int l = 0; l < lanes; ++l) {
         const int row = found.order[r + l];
         if (k >= found.count(row)) {
           partner[l] = offset(first + row);
-          apart[l] = apart[lanes + l] = apart[2 * lanes + l] = 0, apart[3 * lanes + l] = kernels::no_partner;
+          separation[l] = separation[lanes + l] = separation[2 * lanes + l] = 0,
+          separation[3 * lanes + l] = kernels::no_partner;
           continue;
         }
         const SoftBall &a = balls[first + row], &b = balls[found.ball[found.first[row] + k]];
         const Vector3 d = b.centre - a.centre;
         const double reach = a.radius + b.radius;
         partner[l] = offset(b.row);
-        apart[l] = static_cast<float>(d.x), apart[lanes + l] = static_cast<float>(d.y);
-        apart[2 * lanes + l] = static_cast<float>(d.z);
-        apart[3 * lanes + l] = static_cast<float>(norm_squared(d) - reach * reach);
+        separation[l] = static_cast<float>(d.x), separation[lanes + l] = static_cast<float>(d.y);
+        separation[2 * lanes + l] = static_cast<float>(d.z);
+        separation[3 * lanes + l] = static_cast<float>(norm_squared(d) - reach * reach);
       }
 }
 

@@ -23,10 +23,10 @@ struct SoftBall {
 struct SoftPartners {
   std::vector<int> row, steps;
   AlignedVector<unsigned> partner;
-  AlignedVector<float> apart;
+  AlignedVector<float> separation;
 
   kernels::SoftLists lists() const {
-    return {steps.size(), row.data(), steps.data(), partner.data(), apart.data()};
+    return {steps.size(), row.data(), steps.data(), partner.data(), separation.data()};
   }
 };
 

@@ -55,9 +55,9 @@ SoftRow row_of(const Vector3 &v) {
 }
 
 // Neighbours in space become neighbours in memory; they stay so, since spheres move by a few radii at most.
-void sort_in_space(const Room &room, std::vector<Vector3> &centre, std::vector<double> &factor) {
+void sort_in_space(const Container &container, std::vector<Vector3> &centre, std::vector<double> &factor) {
   const double largest = factor.empty() ? 1.0 : *std::max_element(factor.begin(), factor.end());
-  const BoundingBox bounds = bounding_box(room.shape);
+  const BoundingBox bounds = bounding_box(container.shape);
   const PointGrid grid(bounds.low, bounds.high, 3.0 * largest);
   std::vector<std::pair<std::size_t, std::size_t>> key(centre.size());
   for (std::size_t i = 0; i < key.size(); ++i)
@@ -70,8 +70,8 @@ void sort_in_space(const Room &room, std::vector<Vector3> &centre, std::vector<d
   centre.swap(placed), factor.swap(sorted);
 }
 
-// Calls visit(shift) for every image within `reach` of the room's faces: a sphere nearer to a face than a
-// partner can be is repeated beyond the opposite face, in edges and corners too.
+// Calls visit(shift) for every image within `reach` of the container's faces: a sphere nearer to a face than
+// a partner can be is repeated beyond the opposite face, in edges and corners too.
 template <class Visit>
 void for_each_image(const Shape &shape, const Vector3 &at, double reach, const Visit &visit) {
   const Vector3 period = periods(shape);
@@ -89,14 +89,14 @@ void for_each_image(const Shape &shape, const Vector3 &at, double reach, const V
 
 } // namespace
 
-SoftSpheres::SoftSpheres(Room room, std::vector<Vector3> centre, std::vector<double> factor)
-    : SoftSpheres(std::move(room), std::move(centre), std::move(factor), {}) {
-  sort_in_space(room_, centre_, factor_);
+SoftSpheres::SoftSpheres(Container container, std::vector<Vector3> centre, std::vector<double> factor)
+    : SoftSpheres(std::move(container), std::move(centre), std::move(factor), {}) {
+  sort_in_space(container_, centre_, factor_);
 }
 
-SoftSpheres::SoftSpheres(Room room, std::vector<Vector3> centre, std::vector<double> factor,
+SoftSpheres::SoftSpheres(Container container, std::vector<Vector3> centre, std::vector<double> factor,
                          std::vector<Obstacle> obstacles)
-    : room_(std::move(room)),
+    : container_(std::move(container)),
       factor_(std::move(factor)),
       obstacles_(std::move(obstacles)),
       centre_(std::move(centre)) {
@@ -105,7 +105,7 @@ SoftSpheres::SoftSpheres(Room room, std::vector<Vector3> centre, std::vector<dou
     largest_factor_ = std::max(largest_factor_, o.factor);
   rows_ = number_of_blocks(size(), soft_group) * soft_group;
   velocity_.resize(rows_), force_.resize(rows_), outside_.resize(rows_);
-  way_.assign(rows_ + obstacles_.size(), {0, 0, 0, 1}); // spare rows need a radius
+  displacement_.assign(rows_ + obstacles_.size(), {0, 0, 0, 1}); // spare rows need a radius
   reach_.assign(size(), first_reach);
   sums_.resize(number_of_blocks(size()));
 }
@@ -118,14 +118,14 @@ void SoftSpheres::set_scale(double scale) {
 std::vector<Vector3> SoftSpheres::centres() const {
   std::vector<Vector3> all(size());
   for (std::size_t i = 0; i < size(); ++i)
-    all[i] = room_.repeats ? within(room_.shape, place(i)) : place(i);
+    all[i] = container_.repeats ? within(container_.shape, place(i)) : place(i);
   return all;
 }
 
 void SoftSpheres::choose_reach() {
   if (since_build_ == 0) return;
   std::vector<double> moved(size());
-  for_each(size(), [&](std::size_t i) { moved[i] = norm(way(i)); });
+  for_each(size(), [&](std::size_t i) { moved[i] = norm(displacement(i)); });
   const double mean = std::accumulate(moved.begin(), moved.end(), 0.0) / static_cast<double>(size());
   const double longer = std::min(wanted_life / static_cast<double>(since_build_), mean_reach / (mean + tiny));
   for_each(size(), [&](std::size_t i) {
@@ -141,11 +141,11 @@ void SoftSpheres::make_balls() {
   });
   for (std::size_t k = 0; k < obstacles_.size(); ++k)
     balls_.push_back({obstacles_[k].centre, scale_ * obstacles_[k].factor, 0, static_cast<int>(rows_ + k)});
-  if (!room_.repeats) return;
+  if (!container_.repeats) return;
   const double farthest = *std::max_element(reach_.begin(), reach_.end());
   const double reach = 2 * (scale_ * largest_factor_ + farthest);
   for (std::size_t b = 0, inside = balls_.size(); b < inside; ++b)
-    for_each_image(room_.shape, balls_[b].centre, reach, [&](const Vector3 &shift) {
+    for_each_image(container_.shape, balls_[b].centre, reach, [&](const Vector3 &shift) {
       balls_.push_back(balls_[b]);
       balls_.back().centre += shift;
     });
@@ -156,48 +156,48 @@ void SoftSpheres::find_partners() {
   choose_reach();
   since_build_ = 0;
   for_each(size(), [&](std::size_t i) {
-    centre_[i] = room_.repeats ? within(room_.shape, place(i)) : place(i);
-    way_[i] = {0, 0, 0, static_cast<float>(scale_ * factor_[i])};
+    centre_[i] = container_.repeats ? within(container_.shape, place(i)) : place(i);
+    displacement_[i] = {0, 0, 0, static_cast<float>(scale_ * factor_[i])};
   });
   for (std::size_t k = 0; k < obstacles_.size(); ++k)
-    way_[rows_ + k].w = static_cast<float>(scale_ * obstacles_[k].factor);
+    displacement_[rows_ + k].w = static_cast<float>(scale_ * obstacles_[k].factor);
   make_balls();
   find_soft_partners(balls_, size(), partners_);
   find_walls();
   for_each_block(size(), [&](std::size_t first, std::size_t last, std::size_t block) {
-    sums_[block].room = room_of(first, last);
+    sums_[block].clearance = clearance_of(first, last);
   });
   lists_are_good_ = true;
 }
 
 void SoftSpheres::find_walls() {
-  walls_.clear(room_.shape);
+  walls_.clear(container_.shape);
   for (std::size_t i = 0; i < size(); ++i) {
     outside_[i] = press_.empty() ? SoftRow{} : row_of(press_[i]);
-    if (!room_.repeats) walls_.add(static_cast<int>(i), centre_[i], scale_ * factor_[i], 2 * reach_[i]);
+    if (!container_.repeats) walls_.add(static_cast<int>(i), centre_[i], scale_ * factor_[i], 2 * reach_[i]);
   }
 }
 
 // A pair that is not listed becomes a contact only after one end has moved farther than its reach.
-double SoftSpheres::room_of(std::size_t first, std::size_t last) const {
-  double room = longest_reach;
+double SoftSpheres::clearance_of(std::size_t first, std::size_t last) const {
+  double clearance = longest_reach;
   for (std::size_t i = first; i < last; ++i)
-    room = std::min(room, reach_[i] - norm(way(i)));
-  return room;
+    clearance = std::min(clearance, reach_[i] - norm(displacement(i)));
+  return clearance;
 }
 
 bool SoftSpheres::partners_are_stale() {
   if (!lists_are_good_) return true;
   for (std::size_t b = 0; b < sums_.size(); ++b) {
-    double &room = sums_[b].room;
-    if (room <= 0) room = room_of(b * block_rows, std::min(size(), (b + 1) * block_rows));
-    if (room <= 0) return true;
+    double &clearance = sums_[b].clearance;
+    if (clearance <= 0) clearance = clearance_of(b * block_rows, std::min(size(), (b + 1) * block_rows));
+    if (clearance <= 0) return true;
   }
   return false;
 }
 
 kernels::SoftColumns SoftSpheres::columns() {
-  return {way_.data(), velocity_.data(), force_.data(), outside_.data()};
+  return {displacement_.data(), velocity_.data(), force_.data(), outside_.data()};
 }
 
 // Forces, and the sums of squares for a downhill step with `next_step`.
@@ -208,7 +208,7 @@ void SoftSpheres::compute_forces(double next_step) {
   for_each_block(size(), [&](std::size_t first, std::size_t last, std::size_t block) {
     walls_.for_each_row(first, last,
                         [&](std::size_t i) { outside_[i] = press_.empty() ? SoftRow{} : row_of(press_[i]); });
-    sums_[block].of_walls = walls_.add_forces(first, last, way_.data(), outside_.data());
+    sums_[block].of_walls = walls_.add_forces(first, last, displacement_.data(), outside_.data());
     sums_[block].of_kernel = best().add_forces(c, partners_[block].lists(), static_cast<float>(next_step));
   });
   add_up();
@@ -231,17 +231,17 @@ void SoftSpheres::add_up() {
 template <class Visit>
 void SoftSpheres::for_each_touch(const Visit &visit) const {
   for (const SoftPartners &block : partners_) {
-    const float *apart = block.apart.data();
+    const float *separation = block.separation.data();
     const unsigned *partner = block.partner.data();
     for (std::size_t group = 0; group < block.steps.size(); ++group)
-      for (int k = 0; k < block.steps[group]; ++k, partner += soft_group, apart += 4 * soft_group)
+      for (int k = 0; k < block.steps[group]; ++k, partner += soft_group, separation += 4 * soft_group)
         for (std::size_t l = 0; l < soft_group; ++l) {
-          const double outside = static_cast<double>(apart[3 * soft_group + l]);
+          const double outside = static_cast<double>(separation[3 * soft_group + l]);
           if (!(outside < 0)) continue;
-          const Vector3 d{apart[l], apart[soft_group + l], apart[2 * soft_group + l]};
+          const Vector3 d{separation[l], separation[soft_group + l], separation[2 * soft_group + l]};
           const int row = block.row[soft_group * group + l];
-          const double reach = static_cast<double>(way_[static_cast<std::size_t>(row)].w) +
-                               static_cast<double>(way_[partner[l] / sizeof(SoftRow)].w);
+          const double reach = static_cast<double>(displacement_[static_cast<std::size_t>(row)].w) +
+                               static_cast<double>(displacement_[partner[l] / sizeof(SoftRow)].w);
           visit(static_cast<std::size_t>(row), -outside / (reach + norm(d)));
         }
   }
@@ -269,7 +269,7 @@ Overlaps SoftSpheres::overlaps() {
 }
 
 bool SoftSpheres::touches_wall(std::size_t i) const {
-  return !room_.repeats && wall_clearance(room_.shape, centre_[i]) < scale_ * factor_[i];
+  return !container_.repeats && wall_clearance(container_.shape, centre_[i]) < scale_ * factor_[i];
 }
 
 std::vector<std::size_t> SoftSpheres::loose_spheres() const {
@@ -296,13 +296,13 @@ std::size_t SoftSpheres::seat_loose_spheres(double force, Random &random) {
   if (loose.empty()) return 0;
   std::vector<Vector3> centre;
   std::vector<double> factor;
-  std::vector<Obstacle> held;
+  std::vector<Obstacle> fixed;
   for (std::size_t i = 0, k = 0; i < size(); ++i)
     if (k < loose.size() && loose[k] == i)
       centre.push_back(centre_[i]), factor.push_back(factor_[i]), ++k;
     else
-      held.push_back({centre_[i], factor_[i]});
-  SoftSpheres alone(room_, std::move(centre), std::move(factor), std::move(held));
+      fixed.push_back({centre_[i], factor_[i]});
+  SoftSpheres alone(container_, std::move(centre), std::move(factor), std::move(fixed));
   alone.set_scale(scale_);
   for (const double push : {std::max(swift_push, force), force}) {
     alone.press_.clear();
@@ -324,12 +324,12 @@ bool SoftSpheres::at_rest(double tolerance, double floor) const {
 void SoftSpheres::step_back(double step) {
   const float half = static_cast<float>(0.5 * step);
   for_each(size(), [&](std::size_t i) {
-    SoftRow &u = way_[i], &v = velocity_[i];
+    SoftRow &u = displacement_[i], &v = velocity_[i];
     u.x -= half * v.x, u.y -= half * v.y, u.z -= half * v.z;
     v = SoftRow{};
   });
   for (BlockSums &s : sums_)
-    s.room -= 0.5 * step * s.fastest;
+    s.clearance -= 0.5 * step * s.fastest;
 }
 
 void SoftSpheres::drift(double step, double mixing) {
@@ -339,7 +339,7 @@ void SoftSpheres::drift(double step, double mixing) {
   for_each_block(rows_, [&](std::size_t first, std::size_t last, std::size_t block) {
     BlockSums &sums = sums_[block];
     sums.fastest = rounded_up * std::sqrt(static_cast<double>(best().drift(c, by, first, last)));
-    sums.room -= step * sums.fastest;
+    sums.clearance -= step * sums.fastest;
   });
 }
 

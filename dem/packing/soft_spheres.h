@@ -24,7 +24,7 @@ struct Overlaps {
 };
 
 // The container of soft spheres.
-struct Room {
+struct Container {
   Shape shape;          // a cylinder or box with walls; a box if periodic
   bool repeats = false; // periodic in x, y and z
 };
@@ -35,7 +35,7 @@ struct Room {
 // any processor.
 class SoftSpheres {
 public:
-  SoftSpheres(Room room, std::vector<Vector3> centre, std::vector<double> factor);
+  SoftSpheres(Container container, std::vector<Vector3> centre, std::vector<double> factor);
 
   void set_scale(double scale);
   double scale() const { return scale_; }
@@ -62,20 +62,22 @@ private:
     kernels::SoftSums of_kernel;
     WallSums of_walls;
     double fastest = 0;
-    double room = 0; // displacement left to its spheres until each is checked
+    double clearance = 0; // displacement left to its spheres until each is checked
   };
 
-  SoftSpheres(Room room, std::vector<Vector3> centre, std::vector<double> factor,
+  SoftSpheres(Container container, std::vector<Vector3> centre, std::vector<double> factor,
               std::vector<Obstacle> obstacles);
   std::size_t size() const { return factor_.size(); }
-  Vector3 way(std::size_t i) const { return {way_[i].x, way_[i].y, way_[i].z}; }
-  Vector3 place(std::size_t i) const { return centre_[i] + way(i); }
+  Vector3 displacement(std::size_t i) const {
+    return {displacement_[i].x, displacement_[i].y, displacement_[i].z};
+  }
+  Vector3 place(std::size_t i) const { return centre_[i] + displacement(i); }
   void choose_reach();
   void find_partners();
   void make_balls();
   void find_walls();
   bool partners_are_stale();
-  double room_of(std::size_t first, std::size_t last) const;
+  double clearance_of(std::size_t first, std::size_t last) const;
   void compute_forces(double next_step);
   void add_up();
   bool at_rest(double tolerance, double floor) const;
@@ -88,14 +90,15 @@ private:
   void for_each_touch(const Visit &visit) const;
   kernels::SoftColumns columns();
 
-  Room room_;
+  Container container_;
   double scale_ = 1, largest_factor_ = 1;
   std::vector<double> factor_;
   std::vector<Obstacle> obstacles_;
   std::vector<Vector3> centre_; // positions when the lists were made
   std::vector<Vector3> press_;  // a constant force on each, or empty
-  // Spheres in whole groups; in way_ also obstacles, without displacement. outside_: walls and press_.
-  AlignedVector<kernels::SoftRow> way_, velocity_, force_, outside_;
+  // Spheres in whole groups; in displacement_ also obstacles, without displacement. outside_: walls and
+  // press_.
+  AlignedVector<kernels::SoftRow> displacement_, velocity_, force_, outside_;
   std::size_t rows_ = 0; // whole groups
   std::vector<SoftPartners> partners_;
   std::vector<SoftBall> balls_; // of the last search; kept to reuse their memory

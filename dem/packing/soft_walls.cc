@@ -53,10 +53,10 @@ void touch(double overlap, WallSums &sums) {
 } // namespace
 
 // Without branches: half of the spheres near a wall touch it, in no order.
-void SoftWalls::add_flat(std::size_t first, std::size_t last, const SoftRow *way, SoftRow *force,
+void SoftWalls::add_flat(std::size_t first, std::size_t last, const SoftRow *displacement, SoftRow *force,
                          WallSums &sums) const {
   for (const Plane *p = begin(flat_, first), *end = begin(flat_, last); p != end; ++p) {
-    const SoftRow &u = way[p->row];
+    const SoftRow &u = displacement[p->row];
     const double overlap =
         std::max(0.0, -(p->gap + static_cast<double>(p->x * u.x + p->y * u.y + p->z * u.z)));
     touch(overlap, sums);
@@ -67,14 +67,14 @@ void SoftWalls::add_flat(std::size_t first, std::size_t last, const SoftRow *way
 }
 
 // Roots and quotients of several entries at once, in vectors, then their sums in order.
-void SoftWalls::add_round(std::size_t first, std::size_t last, const SoftRow *way, SoftRow *force,
+void SoftWalls::add_round(std::size_t first, std::size_t last, const SoftRow *displacement, SoftRow *force,
                           WallSums &sums) const {
   float x[at_once], y[at_once], inner[at_once], outside[at_once], overlap[at_once];
   const Round *r = begin(round_, first), *end = begin(round_, last);
   while (r != end) {
     const std::size_t count = std::min(at_once, static_cast<std::size_t>(end - r));
     for (std::size_t k = 0; k < count; ++k) {
-      const SoftRow &u = way[r[k].row];
+      const SoftRow &u = displacement[r[k].row];
       x[k] = r[k].x + u.x, y[k] = r[k].y + u.y, inner[k] = r[k].inner;
       outside[k] = r[k].outside + (r[k].x + x[k]) * u.x + (r[k].y + y[k]) * u.y;
     }
@@ -93,13 +93,13 @@ void SoftWalls::add_round(std::size_t first, std::size_t last, const SoftRow *wa
   }
 }
 
-WallSums SoftWalls::add_forces(std::size_t first, std::size_t last, const SoftRow *way,
+WallSums SoftWalls::add_forces(std::size_t first, std::size_t last, const SoftRow *displacement,
                                SoftRow *force) const {
   WallSums sums;
-  add_flat(first, last, way, force, sums);
-  add_round(first, last, way, force, sums);
+  add_flat(first, last, displacement, force, sums);
+  add_round(first, last, displacement, force, sums);
   for (const Round *r = begin(wide_, first), *end = begin(wide_, last); r != end; ++r) {
-    const SoftRow &u = way[r->row];
+    const SoftRow &u = displacement[r->row];
     touch(static_cast<double>(-r->inner), sums);
     SoftRow &f = force[r->row];
     f.x -= 2 * (r->x + u.x), f.y -= 2 * (r->y + u.y);

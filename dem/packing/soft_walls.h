@@ -23,8 +23,8 @@ public:
   void clear(const Shape &shape);
   // Rows ascending; lists the walls that this sphere may touch after a displacement of `reach`.
   void add(int row, const Vector3 &centre, double radius, double reach);
-  // Adds to `force` of rows [first, last), with their displacements `way` since the lists were made.
-  WallSums add_forces(std::size_t first, std::size_t last, const kernels::SoftRow *way,
+  // Adds to `force` of rows [first, last), with their `displacement` since the lists were made.
+  WallSums add_forces(std::size_t first, std::size_t last, const kernels::SoftRow *displacement,
                       kernels::SoftRow *force) const;
   // Calls visit(row) for every row of [first, last) on the lists, once or more.
   template <class Visit>
@@ -49,10 +49,10 @@ private:
   };
   template <class Wall>
   static const Wall *begin(const std::vector<Wall> &walls, std::size_t row);
-  void add_flat(std::size_t first, std::size_t last, const kernels::SoftRow *way, kernels::SoftRow *force,
-                WallSums &sums) const;
-  void add_round(std::size_t first, std::size_t last, const kernels::SoftRow *way, kernels::SoftRow *force,
-                 WallSums &sums) const;
+  void add_flat(std::size_t first, std::size_t last, const kernels::SoftRow *displacement,
+                kernels::SoftRow *force, WallSums &sums) const;
+  void add_round(std::size_t first, std::size_t last, const kernels::SoftRow *displacement,
+                 kernels::SoftRow *force, WallSums &sums) const;
 
   Shape shape_;
   std::vector<Plane> flat_;

@@ -53,9 +53,9 @@ private:
 // m, distance of a point from a notch, negative within it; infinite without one.
 double notch_clearance(const Notch &notch, const Vector3 &p) {
   if (!notch.is_there()) return std::numeric_limits<double>::infinity();
-  const double beside = std::abs(p.x) - 0.5 * notch.width, above = p.z - notch.depth;
-  if (beside < 0 && above < 0) return std::max(beside, above);
-  return std::hypot(std::max(beside, 0.0), std::max(above, 0.0));
+  const double outside = std::abs(p.x) - 0.5 * notch.width, above = p.z - notch.depth;
+  if (outside < 0 && above < 0) return std::max(outside, above);
+  return std::hypot(std::max(outside, 0.0), std::max(above, 0.0));
 }
 
 void check_numbers(const Specimen &s, ProblemList &problems) {
@@ -133,19 +133,19 @@ Specimen laid_along_x(const Specimen &standing) {
   return lying;
 }
 
-Specimen notched(const Specimen &whole, const Notch &notch) {
+Specimen notched(const Specimen &full, const Notch &notch) {
   for (const double length : {notch.depth, notch.width})
     if (!std::isfinite(length) || length < 0)
       throw std::invalid_argument("depth and width of a notch must be finite and not negative");
-  if (!notch.is_there()) return whole;
-  if (whole.shape.kind != ShapeKind::box) throw std::invalid_argument("only a box can be notched");
+  if (!notch.is_there()) return full;
+  if (full.shape.kind != ShapeKind::box) throw std::invalid_argument("only a box can be notched");
   Specimen cut;
-  cut.shape = whole.shape;
+  cut.shape = full.shape;
   cut.shape.notch = notch;
-  for (std::size_t i = 0; i < whole.size(); ++i) {
-    if (notch.holds(whole.centre[i])) continue;
-    cut.centre.push_back(whole.centre[i]);
-    cut.radius.push_back(whole.radius[i]);
+  for (std::size_t i = 0; i < full.size(); ++i) {
+    if (notch.holds(full.centre[i])) continue;
+    cut.centre.push_back(full.centre[i]);
+    cut.radius.push_back(full.radius[i]);
   }
   return cut;
 }

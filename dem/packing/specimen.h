@@ -14,10 +14,10 @@ namespace platen::dem {
 
 enum class ShapeKind { cylinder, box, disc };
 
-// A notch as a saw cuts it: from the lower face of a box at mid-length, through its whole breadth along y.
+// A notch as a saw cuts it: from the lower face of a box at mid-length, through its full breadth along y.
 struct Notch {
   double depth = 0; // m, along z; 0: none
-  double width = 0; // m, along x; 0: a cut that takes nothing away
+  double width = 0; // m, along x; 0: a cut that removes nothing
 
   bool is_there() const { return depth > 0; }
   bool holds(const Vector3 &x) const { return x.z < depth && std::abs(x.x) < 0.5 * width; }
@@ -81,8 +81,8 @@ Specimen laid_down(const Specimen &specimen);
 Specimen laid_along_x(const Specimen &specimen);
 
 // A box without the spheres whose centres lie in the notch; its shape has the notch, across which no bond is
-// made then. Once more it takes nothing away. Throws std::invalid_argument for another shape, and unless
-// depth and width are finite and not negative.
+// made then. A second call removes nothing. Throws std::invalid_argument for another shape, and unless depth
+// and width are finite and not negative.
 Specimen notched(const Specimen &specimen, const Notch &notch);
 
 inline double sphere_volume(double radius) { // m^3

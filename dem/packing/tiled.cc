@@ -77,7 +77,7 @@ Specimen tiled_close_packing(const Shape &shape, double mean, double spread, std
   });
   SoftSpheres soft({unit, false}, centre, std::move(factor));
   soft.set_scale(overfull_scale());
-  decompress(soft, random, made.whole, at_rest);
+  decompress(soft, random, made.specimen, at_rest);
   Specimen specimen;
   specimen.shape = shape;
   specimen.centre = soft.centres();
@@ -85,10 +85,10 @@ Specimen tiled_close_packing(const Shape &shape, double mean, double spread, std
     c *= mean;
   for (const double f : soft.factor())
     specimen.radius.push_back(mean * soft.scale() * f);
-  made.whole.spheres = specimen.size();
-  made.whole.attempts = 1;
-  made.whole.mean_radius = mean_radius(specimen);
-  made.whole.packing_fraction = volume_of_spheres(specimen) / shape.volume();
+  made.specimen.spheres = specimen.size();
+  made.specimen.attempts = 1;
+  made.specimen.mean_radius = mean_radius(specimen);
+  made.specimen.packing_fraction = volume_of_spheres(specimen) / shape.volume();
   made.period = mean * tile.shape.height;
   made.tiles = shape.volume() / (made.period * made.period * made.period);
   if (report) *report = made;

@@ -13,10 +13,10 @@ namespace platen::dem {
 // Generation of a tiled packing. Far from the walls it repeats with each period, except for the motion of the
 // last growth: statistics of many tiles are those of one.
 struct TilingReport {
-  GrowthReport tile;  // in its own length unit
-  GrowthReport whole; // of the specimen
-  double period = 0;  // m, along x, y and z
-  double tiles = 0;   // volume of the shape over that of a tile
+  GrowthReport tile;     // in its own length unit
+  GrowthReport specimen; // all of it
+  double period = 0;     // m, along x, y and z
+  double tiles = 0;      // volume of the shape over that of a tile
 };
 
 constexpr double fewest_tiles = 2;

@@ -19,10 +19,10 @@ public:
 
   std::string name() const override { return "stress cycles"; }
 
-  void command(const platen::coupling::Measures &, platen::coupling::Commands &asked) override {
+  void command(const platen::coupling::Measures &, platen::coupling::Commands &commands) override {
     const double speed = 0.5 * direction_ * parameters_.rate;
-    asked[0].velocity = {0, 0, speed}; // the bottom platen; the top one goes the other way
-    asked[1].velocity = {0, 0, -speed};
+    commands[0].velocity = {0, 0, speed}; // the bottom platen; the top one goes the other way
+    commands[1].velocity = {0, 0, -speed};
   }
 
   void update(const platen::coupling::Measures &m) override {

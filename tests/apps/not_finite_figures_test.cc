@@ -76,7 +76,7 @@ protected:
       s.unbalanced = row == 0 ? nan : 1e-3 * (1 + row % 5);
       s.platen_speed = 0.1 + 1e-3 * row, s.time_step = 1e-7;
       s.axial_stage = row > 2, s.cycling = 0, s.stage = 1;
-      s.loads = 1, s.setting = 0, s.confined_share = 1;
+      s.loads = 1, s.setting = 0, s.confined_fraction = 1;
       samples.push_back(s);
     }
     return samples;

@@ -210,10 +210,10 @@ coupling::PlatenTestSettings driven_along_x() {
   coupling::PlatenSide side;
   s.platens.left = s.platens.right = s.platens.front = s.platens.back = side;
   coupling::StageSettings stage;
-  stage.asks.emplace_back();
-  stage.asks.back().side = coupling::SideGroup::lateral_x;
-  stage.asks.back().ask = coupling::SideAsk::Ask::rate;
-  stage.asks.back().value = 0.1;
+  stage.controls.emplace_back();
+  stage.controls.back().side = coupling::SideGroup::lateral_x;
+  stage.controls.back().mode = coupling::SideControl::Mode::rate;
+  stage.controls.back().value = 0.1;
   stage.until = {{coupling::Until::Reached::time, 1}};
   s.loading.stages = {stage};
   return s;
@@ -295,7 +295,7 @@ TEST_F(Along, what_is_measured_along_z_is_not_measured_along_x) {
   crush(x), time_ = 0, crush(z);
   for (Results *results : {&x, &z}) {
     const dem::FailureMeasures &failure = results->last_pattern().failure;
-    for (const double value : {failure.broken_share, failure.damage.end_top, failure.damage.middle})
+    for (const double value : {failure.broken_fraction, failure.damage.end_top, failure.damage.middle})
       EXPECT_EQ(std::isnan(value), results == &x);
     const Scene scene;
     const RunCosts costs;
@@ -308,7 +308,7 @@ TEST_F(Along, what_is_measured_along_z_is_not_measured_along_x) {
       EXPECT_EQ(told, results == &x) << gauged;
     }
   }
-  EXPECT_TRUE(std::isnan(x.pattern().failure.broken_share));
+  EXPECT_TRUE(std::isnan(x.pattern().failure.broken_fraction));
 }
 
 // Both ends by turns: a dome is told as one, on whichever platen it stands.

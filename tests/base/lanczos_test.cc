@@ -119,10 +119,10 @@ TEST(lanczos, the_ritz_value_and_its_component_are_those_of_two_masses) {
 }
 
 TEST(lanczos, bisection_finds_the_ritz_value_of_a_long_matrix_and_its_component) {
-  // 2 beside 1s, n rows: 2 + 2 cos(pi / (n + 1)), components sqrt(2 / (n + 1)) sin(k pi / (n + 1))
+  // 2 off_diagonal 1s, n rows: 2 + 2 cos(pi / (n + 1)), components sqrt(2 / (n + 1)) sin(k pi / (n + 1))
   for (const std::size_t n : {1, 2, 3, 30, 300}) {
-    const std::vector<double> diagonal(n, 2), beside(n, 1); // the last of `beside` is not read
-    const LargestRitzValue ritz = bisected_ritz_value(diagonal, beside);
+    const std::vector<double> diagonal(n, 2), off_diagonal(n, 1); // the last of `off_diagonal` is not read
+    const LargestRitzValue ritz = bisected_ritz_value(diagonal, off_diagonal);
     const double parts = static_cast<double>(n) + 1, last = std::sqrt(2 / parts) * std::sin(pi / parts);
     EXPECT_NEAR(ritz.value, largest_of_springs(n), 1e-14) << n;
     EXPECT_NEAR(ritz.last_component, last, 1e-9) << n;

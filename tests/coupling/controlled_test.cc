@@ -34,7 +34,7 @@ void expect_told(const Task &task, const Seen &within, const Seen &beyond, const
   EXPECT_EQ(near->side, told.side) << told.quantity;
   EXPECT_EQ(near->unit, told.unit) << told.quantity;
   EXPECT_EQ(near->axis, told.axis) << told.quantity;
-  EXPECT_NEAR(near->asked / told.asked, 1, 1e-12) << told.quantity;
+  EXPECT_NEAR(near->target / told.target, 1, 1e-12) << told.quantity;
   EXPECT_NEAR(near->reached / told.reached, 1, 1e-12) << told.quantity;
   EXPECT_TRUE(near->is_met()) << told.quantity << ' ' << near->reached;
   EXPECT_FALSE(far->is_met()) << told.quantity << ' ' << far->reached;
@@ -71,8 +71,8 @@ TEST(controlled, a_pressure_is_the_one_that_acts) {
   HoldPressureTask held(lateral);
   held.begin(Seen{}, 0, from);
   expect_told(held, at(1, 0, 2.971e6), at(1, 0, 2.969e6), told);
-  EXPECT_TRUE(held.controlled(Seen{})->held);
-  EXPECT_FALSE(PressureTask(to(3e6, 1e-3)).controlled(Seen{})->held);
+  EXPECT_TRUE(held.controlled(Seen{})->constant);
+  EXPECT_FALSE(PressureTask(to(3e6, 1e-3)).controlled(Seen{})->constant);
 }
 
 // 3 MPa and half of the deviator, of 3.06 MPa at a pressure of 4.53.
@@ -81,9 +81,9 @@ TEST(controlled, a_path_asks_by_the_deviator_that_there_is) {
   p.quantity = "stress path", p.path = 0.5, p.lag = 1e-5;
   expect_told(PressureTask(p), at(1, 7.59e6, 4.53e6), at(1, 7.59e6, 4.57e6),
               {"stress path", "lateral", "Pa", Controlled::around, false, 4.53e6, 4.53e6});
-  EXPECT_NEAR(PressureTask(p).controlled(at(1, 7.59e6, 4.57e6))->asked, 4.51e6, 1);
+  EXPECT_NEAR(PressureTask(p).controlled(at(1, 7.59e6, 4.57e6))->target, 4.51e6, 1);
   p.path = -0.5; // never negative
-  EXPECT_EQ(PressureTask(p).controlled(at(1, 20e6, 0))->asked, 0);
+  EXPECT_EQ(PressureTask(p).controlled(at(1, 20e6, 0))->target, 0);
 }
 
 // 3 per cent of the stress that it had is not yet nothing; half a one is.
@@ -143,7 +143,7 @@ TEST(controlled, what_is_not_finite_is_not_met) {
                    endless = std::numeric_limits<double>::infinity();
   const auto met = [](double asked, double reached, double whole) {
     Controlled c;
-    c.asked = asked, c.reached = reached, c.whole = whole;
+    c.target = asked, c.reached = reached, c.reference = whole;
     return c.is_met();
   };
   EXPECT_TRUE(met(1, 1.009, 1));
@@ -186,7 +186,7 @@ TEST(controlled, a_stage_that_ends_at_a_stress_asks_no_more) {
     ASSERT_TRUE(program.finished());
     const std::vector<Controlled> told = program.controls(0);
     ASSERT_EQ(told.size(), 1u);
-    EXPECT_EQ(told[0].asked, by_stress ? 5e6 : 9e6);
+    EXPECT_EQ(told[0].target, by_stress ? 5e6 : 9e6);
     EXPECT_EQ(told[0].is_met(), by_stress);
   }
 }

@@ -73,9 +73,9 @@ class Counting : public Stage {
 public:
   explicit Counting(int steps) : left_(steps) {}
   std::string name() const override { return "counting"; }
-  void command(const Measures &, Commands &asked) override {
-    for (std::size_t b = 0; b < asked.size(); ++b)
-      asked[b].velocity = {0, 0, 1.0 + static_cast<double>(b)};
+  void command(const Measures &, Commands &commands) override {
+    for (std::size_t b = 0; b < commands.size(); ++b)
+      commands[b].velocity = {0, 0, 1.0 + static_cast<double>(b)};
   }
   void update(const Measures &) override { --left_; }
   bool has_ended(const Measures &) const override { return left_ <= 0; }

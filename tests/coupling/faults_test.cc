@@ -75,11 +75,11 @@ void control_stress(Settings &s) {
   s.loading.servo = true, s.loading.top_stress = 1e6;
 }
 
-void ask_of_axis(Settings &s, SideGroup side, SideAsk::Ask ask, Until::Reached end) {
+void ask_of_axis(Settings &s, SideGroup side, SideControl::Mode ask, Until::Reached end) {
   StageSettings &stage = s.loading.stages.emplace_back();
   stage.name = "stage 1";
-  SideAsk &one = stage.asks.emplace_back();
-  one.side = side, one.ask = ask, one.value = 0.01;
+  SideControl &one = stage.controls.emplace_back();
+  one.side = side, one.mode = ask, one.value = 0.01;
   stage.until = {{end, 0.01, SideGroup::axial}};
 }
 
@@ -246,28 +246,28 @@ TEST(Faults, a_notch_is_of_a_bar_that_is_bent) {
 
 // A bar that is bent has stages without servos, and with the mouth of a notch where it has one.
 TEST(Faults, stages_of_a_bar_move_its_strips) {
-  const auto of = [](double depth, SideGroup side, SideAsk::Ask ask, Until::Reached end) {
+  const auto of = [](double depth, SideGroup side, SideControl::Mode ask, Until::Reached end) {
     Settings s = bar();
     ask_of_axis(s, side, ask, end);
     dem::Shape shape = dem::box(0.08, 0.02, 0.02);
     shape.notch.depth = depth;
     return fault_of(s, shape);
   };
-  using Ask = SideAsk::Ask;
+  using Mode = SideControl::Mode;
   using Reached = Until::Reached;
   const SideGroup axial = SideGroup::axial;
-  EXPECT_EQ(of(0, axial, Ask::rate, Reached::strain), "");
-  EXPECT_EQ(of(0, axial, Ask::hold, Reached::time), "");
-  EXPECT_EQ(of(0.005, axial, Ask::mouth_opening, Reached::mouth_opening), "");
+  EXPECT_EQ(of(0, axial, Mode::rate, Reached::strain), "");
+  EXPECT_EQ(of(0, axial, Mode::hold, Reached::time), "");
+  EXPECT_EQ(of(0.005, axial, Mode::mouth_opening, Reached::mouth_opening), "");
   const auto expect_told = [](const std::string &told, const char *words) {
     EXPECT_NE(told.find(words), std::string::npos) << told;
   };
-  for (const Ask ask : {Ask::stress, Ask::free, Ask::circumferential})
+  for (const Mode ask : {Mode::stress, Mode::free, Mode::circumferential})
     expect_told(of(0.005, axial, ask, Reached::time), "does not go with three point bending. Allowed: rate");
-  expect_told(of(0.005, axial, Ask::rate, Reached::circumferential_strain), "looks at a circumference");
-  expect_told(of(0, axial, Ask::mouth_opening, Reached::time), "stage_1.axial looks at the mouth");
-  expect_told(of(0, axial, Ask::rate, Reached::mouth_opening), "stage_1.until looks at the mouth");
-  expect_told(of(0.005, SideGroup::top, Ask::mouth_opening, Reached::time), "led by the opening of a notch");
+  expect_told(of(0.005, axial, Mode::rate, Reached::circumferential_strain), "looks at a circumference");
+  expect_told(of(0, axial, Mode::mouth_opening, Reached::time), "stage_1.axial looks at the mouth");
+  expect_told(of(0, axial, Mode::rate, Reached::mouth_opening), "stage_1.until looks at the mouth");
+  expect_told(of(0.005, SideGroup::top, Mode::mouth_opening, Reached::time), "led by the opening of a notch");
 }
 
 TEST(Faults, one_thing_presses_a_side) {
@@ -301,7 +301,7 @@ TEST(Faults, one_thing_presses_a_side) {
 
 TEST(Faults, stages_take_the_place_of_what_else_is_asked) {
   Settings sound = cylinder();
-  ask_of_axis(sound, SideGroup::axial, SideAsk::Ask::rate, Until::Reached::strain);
+  ask_of_axis(sound, SideGroup::axial, SideControl::Mode::rate, Until::Reached::strain);
   expect_faults(
       {{"loading.servo", "does not go with stages", control_stress},
        {"loading.start_strain", "does not go with stages", start_strained},
@@ -310,7 +310,8 @@ TEST(Faults, stages_take_the_place_of_what_else_is_asked) {
         [](Settings &s) { press(s), s.loading.cell->path = 0.1; }},
        {"loading.tension", "does not go with stages", pull},
        {"loading.stage_1.until", "has no end", [](Settings &s) { s.loading.stages[0].until.clear(); }},
-       {"loading.stage_1.axial", "goes nowhere", [](Settings &s) { s.loading.stages[0].asks[0].value = 0; }}},
+       {"loading.stage_1.axial", "goes nowhere",
+        [](Settings &s) { s.loading.stages[0].controls[0].value = 0; }}},
       sound, dem::cylinder(0.02, 0.04));
 }
 

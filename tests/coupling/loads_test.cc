@@ -11,7 +11,7 @@ namespace platen::coupling::loads_test {
 namespace {
 
 using namespace seen;
-using Ask = SideAsk::Ask;
+using Mode = SideControl::Mode;
 
 constexpr double compression = 1, tension = -1;
 
@@ -58,22 +58,22 @@ TEST(loads, a_share_of_another_stress_is_none) {
 TEST(loads, an_unloading_that_comes_first_does_not_turn_the_sense_of_the_test) {
   Seen seen;
   const auto drive = drive_of_both();
-  drive->ask(-0.08, 0, seen, 0);
+  drive->set_rate(-0.08, 0, seen, 0);
   EXPECT_FALSE(drive->is_cycling(seen));
-  drive->ask(0.08, 0, seen, 0);
+  drive->set_rate(0.08, 0, seen, 0);
   EXPECT_FALSE(drive->is_cycling(seen));
   seen.closure = 1e-3;
-  drive->ask(-0.08, 0, seen, 0);
+  drive->set_rate(-0.08, 0, seen, 0);
   EXPECT_TRUE(drive->is_cycling(seen));
-  drive->ask(0.08, 0, seen, 0);
+  drive->set_rate(0.08, 0, seen, 0);
   seen.closure = 0.9e-3;
   EXPECT_TRUE(drive->is_cycling(seen));
   seen.closure = 1e-3;
   EXPECT_FALSE(drive->is_cycling(seen));
 }
 
-SideAsk back() {
-  SideAsk one = asked_of(SideGroup::axial, Ask::rate);
+SideControl back() {
+  SideControl one = asked_of(SideGroup::axial, Mode::rate);
   one.back = true;
   return one;
 }
@@ -81,8 +81,8 @@ SideAsk back() {
 // A small cylinder in a cell, or a small cube between six platens.
 class LoadsOfStages : public testing::Test {
 protected:
-  void add(const std::vector<SideAsk> &asks) {
-    stages_.push_back(asking(asks, {{Until::Reached::time, 1e-3}}));
+  void add(const std::vector<SideControl> &controls) {
+    stages_.push_back(asking(controls, {{Until::Reached::time, 1e-3}}));
   }
   std::unique_ptr<PlatenTest> made(bool boxed = false) const {
     PlatenTestSettings s = six_platens();
@@ -113,19 +113,19 @@ std::vector<int> settings_of(const PlatenTest &test) {
   return all;
 }
 
-const SideAsk drive = asked_of(SideGroup::axial, Ask::rate);
-SideAsk pressure(double value) {
-  return asked_of(SideGroup::lateral, Ask::pressure, value);
+const SideControl drive = asked_of(SideGroup::axial, Mode::rate);
+SideControl pressure(double value) {
+  return asked_of(SideGroup::lateral, Mode::pressure, value);
 }
 
 TEST_F(LoadsOfStages, the_sides_count_where_they_are_asked_something_else) {
-  add({pressure(2e6), asked_of(SideGroup::top, Ask::stress, 2e6)}); // consolidates
+  add({pressure(2e6), asked_of(SideGroup::top, Mode::stress, 2e6)}); // consolidates
   add({drive});
   add({back()});
   add({drive, pressure(2e6)});
-  add({pressure(5e6), asked_of(SideGroup::axial, Ask::stress, 5e6)});
-  add({asked_of(SideGroup::axial, Ask::circumferential, 0.1)});
-  add({asked_of(SideGroup::lateral, Ask::share, 0.1)});
+  add({pressure(5e6), asked_of(SideGroup::axial, Mode::stress, 5e6)});
+  add({asked_of(SideGroup::axial, Mode::circumferential, 0.1)});
+  add({asked_of(SideGroup::lateral, Mode::fraction, 0.1)});
   add({pressure(5e6)});
   const auto test = made();
   const Loads none = Loads::none, closure = Loads::by_closure;
@@ -136,7 +136,7 @@ TEST_F(LoadsOfStages, the_sides_count_where_they_are_asked_something_else) {
 
 // A circumferential rate reaches its strain in that over the rate, and half of the ramp more.
 TEST_F(LoadsOfStages, a_circumferential_stage_is_as_long_as_its_strain_at_its_rate) {
-  add({asked_of(SideGroup::axial, Ask::circumferential, 0.1)});
+  add({asked_of(SideGroup::axial, Mode::circumferential, 0.1)});
   stages_.back().ramp = 2e-4;
   stages_.back().until = {{Until::Reached::circumferential_strain, 3e-4}};
   EXPECT_DOUBLE_EQ(made()->program().stage(0).expected_seconds(), 1e-4 + 3e-4 / 0.1);
@@ -158,10 +158,10 @@ TEST_F(LoadsOfStages, within_the_ramp_of_another_pressure_none_loads_on) {
 
 // A share from the start follows; one that comes later changes what the sides bear.
 TEST_F(LoadsOfStages, a_share_on_the_sides_from_the_start_changes_nothing_on_its_way) {
-  const SideAsk half = asked_of(SideGroup::lateral_x, Ask::share, 0.5);
+  const SideControl half = asked_of(SideGroup::lateral_x, Mode::fraction, 0.5);
   for (const bool first : {true, false}) {
     stages_.clear();
-    if (!first) add({drive, asked_of(SideGroup::lateral_x, Ask::stress, 1e6)});
+    if (!first) add({drive, asked_of(SideGroup::lateral_x, Mode::stress, 1e6)});
     add({drive, half});
     add({drive, half});
     const auto test = made(true);
@@ -173,14 +173,14 @@ TEST_F(LoadsOfStages, a_share_on_the_sides_from_the_start_changes_nothing_on_its
 }
 
 TEST_F(LoadsOfStages, platens_that_part_on_any_side_load_nothing_on) {
-  SideAsk sides_back = back();
+  SideControl sides_back = back();
   sides_back.side = SideGroup::lateral_x;
   add({drive, sides_back});
-  add({asked_of(SideGroup::top, Ask::rate, 0.1), asked_of(SideGroup::bottom, Ask::free)});
-  add({asked_of(SideGroup::top, Ask::rate, 0.1)});
-  add({asked_of(SideGroup::top, Ask::rate, 0.1), asked_of(SideGroup::bottom, Ask::stress, 5e6)});
-  add({asked_of(SideGroup::top, Ask::rate, 0.1), asked_of(SideGroup::bottom, Ask::stress, 0)});
-  add({asked_of(SideGroup::top, Ask::stress, 0), asked_of(SideGroup::bottom, Ask::rate, 0.1)});
+  add({asked_of(SideGroup::top, Mode::rate, 0.1), asked_of(SideGroup::bottom, Mode::free)});
+  add({asked_of(SideGroup::top, Mode::rate, 0.1)});
+  add({asked_of(SideGroup::top, Mode::rate, 0.1), asked_of(SideGroup::bottom, Mode::stress, 5e6)});
+  add({asked_of(SideGroup::top, Mode::rate, 0.1), asked_of(SideGroup::bottom, Mode::stress, 0)});
+  add({asked_of(SideGroup::top, Mode::stress, 0), asked_of(SideGroup::bottom, Mode::rate, 0.1)});
   const auto test = made(true);
   EXPECT_EQ(loads_of(*test), (std::vector<Loads>{Loads::none, Loads::none, Loads::by_closure,
                                                  Loads::by_stress, Loads::none, Loads::none}));

@@ -79,12 +79,12 @@ TEST(machine_cell, whatever_the_platen_is) {
         {kind.name, with(in_cell(0.3 * stiffness, kind.quasi_static || (kind.elastic && kind.seat)), kind)});
 }
 
-// Where a stage asks the bottom platen, the spring behind the top one is in series all the same.
+// Where a stage controls the bottom platen, the spring behind the top one is in series all the same.
 TEST(machine_cell, a_stage_asks_either_platen) {
   for (const SideGroup side : {SideGroup::top, SideGroup::bottom, SideGroup::axial}) {
     PlatenTestSettings settings = in_cell(0.3 * stiffness);
-    settings.loading.stages = {asking({asked_of(SideGroup::lateral, SideAsk::Ask::pressure, pressure),
-                                       asked_of(side, SideAsk::Ask::stress, pressure)})};
+    settings.loading.stages = {asking({asked_of(SideGroup::lateral, SideControl::Mode::pressure, pressure),
+                                       asked_of(side, SideControl::Mode::stress, pressure)})};
     PlatenTest test(coarse_cylinder(), settings);
     double most = 0;
     while (!test.program().finished()) {

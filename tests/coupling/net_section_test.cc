@@ -61,7 +61,7 @@ TEST(net_section, makes_the_modulus_of_a_hollow_lattice_that_of_a_whole_one) {
 TEST(net_section, of_a_specimen_that_fills_its_shape_is_the_nominal_one) {
   const PlatenTest whole(lattice(nowhere), settings(true));
   EXPECT_TRUE(whole.section().fills());
-  EXPECT_EQ(whole.section_share(), 1);
+  EXPECT_EQ(whole.section_fraction(), 1);
   EXPECT_EQ(whole.nominal_area(), whole.shape().cross_section());
 }
 
@@ -70,7 +70,7 @@ TEST(net_section, that_changes_with_height_is_refused) {
   const PlatenTest nominal(cave, settings(false));
   EXPECT_NEAR(nominal.section().least, 0.75, 0.01);
   EXPECT_NEAR(nominal.section().largest, 1, 0.01);
-  EXPECT_EQ(nominal.section_share(), 1);
+  EXPECT_EQ(nominal.section_fraction(), 1);
   expect_refused(cave, settings(true), "net_section", "fill 75 to 100 % of the shape's section by height");
 }
 

@@ -185,7 +185,7 @@ TEST(pressure, follows_the_deviator_with_its_lag_and_is_never_negative) {
     seen.now = n * dt, path.update(seen);
   EXPECT_NEAR(pressure_of(path, seen), 10e6 - 2e6 * (1 - 0.5 * std::pow(1 - 1.0 / 50, 25)), 1e-3);
   PressureTask after(p); // a stage that goes on along the path
-  from.asked[lateral].pressure = 9e6;
+  from.commands[lateral].pressure = 9e6;
   after.begin(seen, seen.now, from);
   EXPECT_NEAR(pressure_of(after, seen), 9e6, 1e-6);
   // What grows steadily is followed without a lag.

@@ -93,7 +93,7 @@ TEST(axial_rate, goes_on_to_a_later_end_as_if_there_had_been_none_before) {
 Program turning(const Seen &seen, const std::shared_ptr<Drive> &drive, double ramp) {
   Stages stages;
   stages.push_back(at_rate(drive, 0.08, ramp, until(Until::Reached::strain, 4e-4)));
-  stages.push_back(at_rate(drive, -0.08, ramp, until(Until::Reached::share_of_start, 0.25)));
+  stages.push_back(at_rate(drive, -0.08, ramp, until(Until::Reached::fraction_of_start, 0.25)));
   stages.push_back(at_rate(drive, 0.08, ramp, until(Until::Reached::strain, 1e-3)));
   return {seen, std::move(stages), {drive}};
 }
@@ -143,7 +143,7 @@ TEST(axial_rate, a_change_of_the_rate_is_no_jump) {
     before = speed;
   }
   EXPECT_NEAR(step(), -0.04, 1e-15);
-  drive->ask(-0.16, ramp, seen, seen.now); // a stage that asks twice the rate
+  drive->set_rate(-0.16, ramp, seen, seen.now); // a stage that asks twice the rate
   seen.now += dt;
   EXPECT_NEAR(drive->speed(seen), -0.04 - 0.08 * 2.0 / 100, 1e-15);
 }
@@ -151,9 +151,9 @@ TEST(axial_rate, a_change_of_the_rate_is_no_jump) {
 TEST(axial_rate, of_nothing_is_refused) {
   Seen seen;
   Drive drive(Drive::Parameters{axial, std::nullopt});
-  EXPECT_THROW(drive.ask(0, 1e-3, seen, 0), std::invalid_argument);
+  EXPECT_THROW(drive.set_rate(0, 1e-3, seen, 0), std::invalid_argument);
   EXPECT_THROW(drive.change_rate(0.1, seen), std::invalid_argument); // of a drive that was asked for none
-  EXPECT_NO_THROW(drive.ask(-0.1, 1e-3, seen, 0));
+  EXPECT_NO_THROW(drive.set_rate(-0.1, 1e-3, seen, 0));
   EXPECT_THROW(drive.change_rate(0, seen), std::invalid_argument);
   EXPECT_NO_THROW(drive.change_rate(0.1, seen));
 }

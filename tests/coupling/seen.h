@@ -84,8 +84,8 @@ inline StressTask::Parameters stress_of(double value, const PlatensOfAxis &plate
 // What a stage before it asked of the lateral surface, Pa.
 inline Transfer after_pressure(double pressure) {
   Transfer from;
-  from.asked.resize(3);
-  from.asked[lateral].pressure = pressure;
+  from.commands.resize(3);
+  from.commands[lateral].pressure = pressure;
   return from;
 }
 

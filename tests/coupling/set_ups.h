@@ -191,16 +191,16 @@ inline PlatenTestSettings with(PlatenTestSettings s, const PlatenKind &kind) {
   return s;
 }
 
-inline SideAsk asked_of(SideGroup side, SideAsk::Ask what, double value = not_given) {
-  SideAsk ask;
-  ask.side = side, ask.ask = what, ask.value = value;
+inline SideControl asked_of(SideGroup side, SideControl::Mode what, double value = not_given) {
+  SideControl ask;
+  ask.side = side, ask.mode = what, ask.value = value;
   return ask;
 }
 
-inline StageSettings asking(const std::vector<SideAsk> &asks,
+inline StageSettings asking(const std::vector<SideControl> &controls,
                             const std::vector<StageUntil> &until = {{Until::Reached::settled}}) {
   StageSettings stage;
-  stage.asks = asks, stage.until = until;
+  stage.controls = controls, stage.until = until;
   return stage;
 }
 
@@ -215,9 +215,9 @@ inline PlatenTestSettings six_platens(const std::array<double, 3> &stresses = {5
   s.platens.top = s.platens.bottom = side;
   s.platens.left = s.platens.right = s.platens.front = s.platens.back = side;
   s.time_step.fixed_step = 8e-8; // that of two packings alike
-  s.loading.stages = {asking({asked_of(SideGroup::lateral_x, SideAsk::Ask::stress, stresses[0]),
-                              asked_of(SideGroup::lateral_y, SideAsk::Ask::stress, stresses[1]),
-                              asked_of(SideGroup::axial, SideAsk::Ask::stress, stresses[2])},
+  s.loading.stages = {asking({asked_of(SideGroup::lateral_x, SideControl::Mode::stress, stresses[0]),
+                              asked_of(SideGroup::lateral_y, SideControl::Mode::stress, stresses[1]),
+                              asked_of(SideGroup::axial, SideControl::Mode::stress, stresses[2])},
                              {{Until::Reached::settled}, {Until::Reached::time, 1e-3}})};
   s.loading.stages[0].name = "stresses", s.loading.stages[0].latest = 1e-3;
   return s;

@@ -38,16 +38,16 @@ TEST(six_sides, all_three_axes_alike_consolidate) {
     stresses[axis] = 2 * asked;
     EXPECT_FALSE(consolidates(six_platens(stresses))) << axis;
     PlatenTestSettings two = six_platens();
-    std::vector<SideAsk> &asks = two.loading.stages[0].asks;
-    asks.erase(asks.begin() + static_cast<std::ptrdiff_t>(axis));
+    std::vector<SideControl> &controls = two.loading.stages[0].controls;
+    controls.erase(controls.begin() + static_cast<std::ptrdiff_t>(axis));
     EXPECT_FALSE(consolidates(two)) << axis;
   }
   PlatenTestSettings cell = hydrostatic(false);
   EXPECT_TRUE(PlatenTest(cylinder(), cell).program().stage(0).is_consolidation());
   cell.loading.cell->alone = false;
   for (const double axial : {asked, 1.2 * asked}) {
-    cell.loading.stages = {asking({asked_of(SideGroup::lateral, SideAsk::Ask::pressure, asked),
-                                   asked_of(SideGroup::axial, SideAsk::Ask::stress, axial)})};
+    cell.loading.stages = {asking({asked_of(SideGroup::lateral, SideControl::Mode::pressure, asked),
+                                   asked_of(SideGroup::axial, SideControl::Mode::stress, axial)})};
     EXPECT_EQ(PlatenTest(cylinder(), cell).program().stage(0).is_consolidation(), axial == asked);
   }
 }
@@ -140,8 +140,8 @@ TEST(six_sides, servos_are_quick_between_platens_alone) {
 TEST(six_sides, a_side_follows_a_share_of_another_sides_stress) {
   PlatenTestSettings settings = six_platens();
   settings.platens.front.reset(), settings.platens.back.reset();
-  settings.loading.stages = {asking({asked_of(SideGroup::axial, SideAsk::Ask::rate, 0.05),
-                                     asked_of(SideGroup::lateral_x, SideAsk::Ask::share, 0.5)},
+  settings.loading.stages = {asking({asked_of(SideGroup::axial, SideControl::Mode::rate, 0.05),
+                                     asked_of(SideGroup::lateral_x, SideControl::Mode::fraction, 0.5)},
                                     {{Until::Reached::stress, 2 * asked, SideGroup::axial}})};
   PlatenTest test(cube(), settings);
   advance_to_end(test, 100000);
@@ -166,17 +166,17 @@ TEST(six_sides, what_has_no_such_sides_is_refused) {
 // nothing.
 TEST(six_sides, a_test_loads_the_axis_that_its_stages_drive) {
   using G = SideGroup;
-  using Ask = SideAsk::Ask;
-  const auto axis = [](const std::vector<SideAsk> &first, const std::vector<SideAsk> &second) {
+  using Mode = SideControl::Mode;
+  const auto axis = [](const std::vector<SideControl> &first, const std::vector<SideControl> &second) {
     PlatenTestSettings settings = six_platens();
     const std::vector<StageUntil> end{{Until::Reached::time, 1e-3}};
     settings.loading.stages = {asking(first, end), asking(second, end)};
     return loaded_axis(PlatenTest(cube(), settings));
   };
-  const SideAsk held = asked_of(G::axial, Ask::stress, 1e6), x = asked_of(G::lateral_x, Ask::rate, 0.1),
-                left = asked_of(G::left, Ask::rate, 0.1), y = asked_of(G::lateral_y, Ask::rate, 0.1),
-                top = asked_of(G::top, Ask::rate, 0.1), sides = asked_of(G::lateral, Ask::rate, 0.1),
-                stress_x = asked_of(G::lateral_x, Ask::stress, 2e6);
+  const SideControl held = asked_of(G::axial, Mode::stress, 1e6), x = asked_of(G::lateral_x, Mode::rate, 0.1),
+                    left = asked_of(G::left, Mode::rate, 0.1), y = asked_of(G::lateral_y, Mode::rate, 0.1),
+                    top = asked_of(G::top, Mode::rate, 0.1), sides = asked_of(G::lateral, Mode::rate, 0.1),
+                    stress_x = asked_of(G::lateral_x, Mode::stress, 2e6);
   EXPECT_EQ(axis({held}, {x, held}), 0);
   EXPECT_EQ(axis({held}, {left, held}), 0);
   EXPECT_EQ(axis({held, stress_x}, {y, held}), 1);
@@ -195,7 +195,7 @@ TEST(six_sides, a_test_loads_the_axis_that_its_stages_drive) {
 TEST(six_sides, platens_do_not_pass_through_each_other) {
   PlatenTestSettings settings = six_platens();
   settings.platens.edge_gap = 5e-6;
-  settings.loading.stages = {asking({asked_of(SideGroup::lateral_x, SideAsk::Ask::rate, 1)},
+  settings.loading.stages = {asking({asked_of(SideGroup::lateral_x, SideControl::Mode::rate, 1)},
                                     {{Until::Reached::strain, 0.5, SideGroup::lateral_x}})};
   PlatenTest test(cube(), settings);
   try {

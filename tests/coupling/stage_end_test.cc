@@ -102,7 +102,7 @@ TEST(consolidation, tells_that_its_stress_was_not_borne) {
       EXPECT_EQ(told[0].reached, 4e6);
       EXPECT_TRUE(told[0].is_met());
       EXPECT_EQ(told[1].side, "top");
-      EXPECT_EQ(told[1].asked, 4e6);
+      EXPECT_EQ(told[1].target, 4e6);
       EXPECT_EQ(told[1].reached, borne);
       EXPECT_EQ(told[1].is_met(), settles);
     }
@@ -136,7 +136,7 @@ TEST(stage_end, is_met_at_its_value) {
       {until(R::strain_change, 3e-4), from, seen(1, 2.29e-3, 0), seen(1, 2.31e-3, 0)},
       {until(R::stress, 7e6), from, seen(1, 0, 6.9e6), seen(1, 0, 7e6)},
       {until(R::stress, 4e6), from, seen(1, 0, 4.1e6), seen(1, 0, 4e6)},
-      {until(R::share_of_start, 0.25), from, seen(1, 0, 2.1e6), seen(1, 0, 2e6)}, // less 1 MPa
+      {until(R::fraction_of_start, 0.25), from, seen(1, 0, 2.1e6), seen(1, 0, 2e6)}, // less 1 MPa
       {until(R::circumferential_strain, 2e-4), from, seen(1, 0, 0, 1.9e-4), seen(1, 0, 0, 2e-4)},
       {until(R::mouth_opening, 2e-4), from, seen(1, 0, 0, 1.9e-4), seen(1, 0, 0, 2e-4)},
       {until(R::time, 2e-3), from, seen(1.0019, 0, 5e6), seen(1.0021, 0, 5e6)}};
@@ -155,7 +155,7 @@ TEST(stage_end, a_share_of_the_peak_counts_after_the_ramp) {
   Seen seen;
   seen.pressure = 1e6;
   StageEnd end(
-      {{until(Until::Reached::share_of_peak, 0.5)}, 1e-3, 0, std::numeric_limits<double>::infinity()});
+      {{until(Until::Reached::fraction_of_peak, 0.5)}, 1e-3, 0, std::numeric_limits<double>::infinity()});
   end.begin(seen, {});
   const auto at = [&](double passed, double stress) {
     seen.stress = stress;

@@ -79,11 +79,11 @@ PlatenTestSettings staged() {
   PlatenTestSettings s = hydrostatic(false);
   s.loading.cell->alone = false;
   s.loading.stages = {
-      asking({asked_of(SideGroup::lateral, SideAsk::Ask::pressure, 1e6),
-              asked_of(SideGroup::axial, SideAsk::Ask::stress, 1e6)},
+      asking({asked_of(SideGroup::lateral, SideControl::Mode::pressure, 1e6),
+              asked_of(SideGroup::axial, SideControl::Mode::stress, 1e6)},
              {{Until::Reached::time, 4e-5}}),
-      asking({asked_of(SideGroup::axial, SideAsk::Ask::circumferential, 1)},
-             {{Until::Reached::circumferential_strain, 0.1}, {Until::Reached::share_of_peak, 0.5}})};
+      asking({asked_of(SideGroup::axial, SideControl::Mode::circumferential, 1)},
+             {{Until::Reached::circumferential_strain, 0.1}, {Until::Reached::fraction_of_peak, 0.5}})};
   s.loading.stages[0].ramp = 2e-5;
   return s;
 }

@@ -74,15 +74,15 @@ TEST(bending, the_formulas_are_those_of_beams) {
   const double load = 500, e = 30e9, inertia = 0.02 * std::pow(0.03, 3) / 12;
   const double stress = load / beam.nominal_area();
   EXPECT_NEAR(stress / (0.25 * load * 0.3 * 0.015 / inertia), 1, 1e-12); // M / W
-  EXPECT_NEAR(beam.deflection(stress, e, 0.2) / (1 + beam.shear_share(0.2)) /
+  EXPECT_NEAR(beam.deflection(stress, e, 0.2) / (1 + beam.shear_fraction(0.2)) /
                   (load * std::pow(0.3, 3) / (48 * e * inertia)),
               1, 1e-12);
   // P L / (4 kappa G A), kappa = 10 (1 + nu) / (12 + 11 nu).
   const double kappa = 10 * 1.2 / 14.2, g = e / 2.4;
-  EXPECT_NEAR(beam.shear_share(0.2) * load * std::pow(0.3, 3) / (48 * e * inertia) /
+  EXPECT_NEAR(beam.shear_fraction(0.2) * load * std::pow(0.3, 3) / (48 * e * inertia) /
                   (load * 0.3 / (4 * kappa * g * 0.02 * 0.03)),
               1, 1e-12);
-  EXPECT_NEAR((ThreePoints{0.075, 0.025, 0.025}.shear_share(0.2)), 0.3, 0.02);
+  EXPECT_NEAR((ThreePoints{0.075, 0.025, 0.025}.shear_fraction(0.2)), 0.3, 0.02);
 }
 
 // Of the ligament above a notch: EN 14651.

@@ -225,13 +225,13 @@ TEST(confinement, what_crumbles_takes_its_share_of_the_pressure_along) {
     for (const double sound : {1.0, 0.6, 0.0}) { // of the height, from below
       Body body(packed_cylinder());
       Confinement c = body.confinement(kind);
-      EXPECT_EQ(c.loaded_share(), 1);
+      EXPECT_EQ(c.loaded_fraction(), 1);
       const double start = c.coverage(body.particles, body.planes());
       crumble(body, [&](int i) { return body.particles.position[i].z > sound * 25e-3; });
       press(c, body, 3e6, 0, 0, true);
       // Where the sound part ends it has a face of its own, whose spheres bear on the mantle too.
-      EXPECT_NEAR(c.loaded_share(), sound, sound == 0.6 ? 0.05 : 0) << start;
-      EXPECT_EQ(c.pressure(), 3e6 * c.loaded_share());
+      EXPECT_NEAR(c.loaded_fraction(), sound, sound == 0.6 ? 0.05 : 0) << start;
+      EXPECT_EQ(c.pressure(), 3e6 * c.loaded_fraction());
       EXPECT_NEAR(c.pressure() * start / 3e6, mean_pressure(body) / 3e6, 0.01) << sound;
     }
 }
@@ -248,16 +248,16 @@ TEST(confinement, only_what_has_come_loose_takes_from_the_pressure) {
   };
   widen(0.9);
   EXPECT_LT(c.coverage(body.particles, body.planes()), 0.95);
-  EXPECT_EQ(c.loaded_share(), 1);
+  EXPECT_EQ(c.loaded_fraction(), 1);
   EXPECT_EQ(c.pressure(), 3e6);
   const int loose = c.particle(c.size() / 2);
   crumble(body, [&](int i) { return i == loose; });
   press(c, body, 3e6, 0, 0, true);
-  EXPECT_NEAR(c.loaded_share(), 1, 0.01);
+  EXPECT_NEAR(c.loaded_fraction(), 1, 0.01);
   widen(1.2);
-  EXPECT_EQ(c.loaded_share(), 1) << "no more than the whole is loaded";
+  EXPECT_EQ(c.loaded_fraction(), 1) << "no more than the whole is loaded";
   widen(0.8);
-  EXPECT_LT(c.loaded_share(), 1);
+  EXPECT_LT(c.loaded_fraction(), 1);
   Confinement read = Body(packed_cylinder()).confinement();
   set_state(read, state_of(c));
   EXPECT_TRUE(same_state(read, c));

@@ -291,9 +291,9 @@ TEST(FacetBond, cohesion_is_a_potential_of_the_pose) {
   const auto energy = [&](const Triple<double> &by, const Triple<double> &turn_i,
                           const Triple<double> &turn_j) {
     return bond.law
-        .held(bond.state, bond.geometry,
-              {bond.pose.distance + by, Bond::turned_by(bond.pose.turn_i, turn_i),
-               Bond::turned_by(bond.pose.turn_j, turn_j)})
+        .force_and_energy(bond.state, bond.geometry,
+                          {bond.pose.distance + by, Bond::turned_by(bond.pose.turn_i, turn_i),
+                           Bond::turned_by(bond.pose.turn_j, turn_j)})
         .energy;
   };
   const Triple<double> none{0, 0, 0};
@@ -360,8 +360,8 @@ TEST(FacetBond, held_and_the_response_are_those_of_the_step) {
   Bond bond;
   for (const double tension : {3e6, 9e6, -20e6}) {
     bond.to(tension, 8e6, -3e6, 100);
-    const HeldByBond<double> held =
-        bond.law.held(bond.state, bond.geometry, {bond.pose.distance, bond.pose.turn_i, bond.pose.turn_j});
+    const ForceAndEnergy<double> held = bond.law.force_and_energy(
+        bond.state, bond.geometry, {bond.pose.distance, bond.pose.turn_i, bond.pose.turn_j});
     const BondResponse<double> r = bond.law.bond_response(bond.state, bond.geometry, bond.pose);
     EXPECT_EQ(norm(examples::vector(held.force - bond.now.force)), 0);
     EXPECT_EQ(norm(examples::vector(r.force - bond.now.force)), 0);
@@ -427,20 +427,20 @@ TEST(Elementary, saturation_is_one_less_the_exponential) {
 }
 
 TEST(Elementary, angles_of_the_first_quarter) {
-  EXPECT_EQ(share_of_right_angle(0.0, 3.0), 0);
-  EXPECT_NEAR(share_of_right_angle(3.0, 0.0), 1, 1e-15);
+  EXPECT_EQ(fraction_of_right_angle(0.0, 3.0), 0);
+  EXPECT_NEAR(fraction_of_right_angle(3.0, 0.0), 1, 1e-15);
   for (double y = 1e-9; y < 1e9; y *= 1.3)
-    EXPECT_NEAR(share_of_right_angle(y, 0.7), std::atan2(y, 0.7) / (0.5 * pi), 1e-14 * std::atan2(y, 0.7))
+    EXPECT_NEAR(fraction_of_right_angle(y, 0.7), std::atan2(y, 0.7) / (0.5 * pi), 1e-14 * std::atan2(y, 0.7))
         << y;
 }
 
 TEST(Elementary, powers_of_shares) {
   for (const double n : {0.0, 0.2, 1.0, 3.0}) {
-    EXPECT_EQ(power_of_share(1.0, n), 1);
+    EXPECT_EQ(power_of_fraction(1.0, n), 1);
     for (double x = 1e-4; x < 1; x *= 1.02)
-      EXPECT_NEAR(power_of_share(x, n), std::pow(x, n), 2e-14) << x << ' ' << n;
+      EXPECT_NEAR(power_of_fraction(x, n), std::pow(x, n), 2e-14) << x << ' ' << n;
   }
-  EXPECT_EQ(power_of_share(0.0, 0.2), power_of_share(1e-12, 0.2));
+  EXPECT_EQ(power_of_fraction(0.0, 0.2), power_of_fraction(1e-12, 0.2));
 }
 
 } // namespace

@@ -130,7 +130,7 @@ TEST(failure_pattern, ends_and_middle_of_facets_are_judged_by_their_damage) {
   EXPECT_EQ(judged(.39, .05), DecidedBy::nothing);
   EXPECT_EQ(judged(.0201, .0201), DecidedBy::nothing);
   EXPECT_EQ(judged(.0199, .0199), DecidedBy::few_broken);
-  EXPECT_NEAR(m.broken_share, .0199, 1e-12);
+  EXPECT_NEAR(m.broken_fraction, .0199, 1e-12);
   damage_bonds<FacetBond>(facet, [](const Vector3 &) { return 0; });
   facet.cut([](const Vector3 &x) { return x.z < 15 * radius ? Cylinder::crumbs : 1; });
   EXPECT_EQ(measure_failure(facet.particles, facet.bonds, facet.shape).damage.end_bottom,
@@ -148,9 +148,10 @@ TEST(failure_pattern, a_plane_of_facets_is_compared_with_all_that_is_lost) {
       damage_bonds<FacetBond>(c, [=](const Vector3 &) { return damage; });
       const FailureMeasures m = measure_failure(c.particles, c.bonds, c.shape);
       EXPECT_NEAR(m.planes.broken, (1 + share) * broken, 1e-9 * broken);
-      EXPECT_NEAR(m.broken_share, (1 + share) * broken / static_cast<double>(c.bonds.initial_count()), 1e-12);
+      EXPECT_NEAR(m.broken_fraction, (1 + share) * broken / static_cast<double>(c.bonds.initial_count()),
+                  1e-12);
       EXPECT_EQ(judge_failure(m).by == DecidedBy::one_plane, share < 1) << angle << " " << share;
-      EXPECT_EQ(m.planes.steep_share > .5, angle == 0 && share < 1);
+      EXPECT_EQ(m.planes.steep_fraction > .5, angle == 0 && share < 1);
     }
   }
 }
@@ -185,7 +186,7 @@ TEST(failure_pattern, both_ends_decide) {
                                                    {V::doubtful, V::cone, "undecided"},
                                                    {V::cone, V::small_base, "undecided"}}) {
     FailureMeasures m;
-    m.broken_share = .4;
+    m.broken_fraction = .4;
     m.dead[bottom_end].verdict = bottom, m.dead[top_end].verdict = top;
     EXPECT_STREQ(word_of(judge_failure(m).pattern), pattern) << words_of(bottom) << ", " << words_of(top);
   }
@@ -193,7 +194,7 @@ TEST(failure_pattern, both_ends_decide) {
 
 TEST(failure_pattern, a_plane_decides_with_half_of_all_broken_bonds_across_the_specimen) {
   FailureMeasures m;
-  m.broken_share = .4, m.width = .05;
+  m.broken_fraction = .4, m.width = .05;
   m.planes.count = 1, m.planes.broken = 1000;
   const auto decided = [&m](double bonds, double extent, double inclination) {
     m.planes.largest.bonds = bonds, m.planes.largest.extent = extent,
@@ -212,7 +213,7 @@ TEST(failure_pattern, a_plane_decides_with_half_of_all_broken_bonds_across_the_s
 TEST(failure_pattern, an_end_that_did_not_spread_is_not_crushed) {
   FailureMeasures m;
   m.damage = {.45, .4, .55};
-  m.broken_share = .5;
+  m.broken_fraction = .5;
   m.end_spread = .18;
   EXPECT_EQ(judge_failure(m).pattern, FailurePattern::undecided);
   m.end_spread = 1;
@@ -252,7 +253,7 @@ struct MeasuresOfVersionTwo {
 TEST(failure_pattern, states_with_cones_by_damage_are_read) {
   MeasuresOfVersionTwo old;
   old.measures.damage = {.45, .4, .55};
-  old.measures.broken_share = .5;
+  old.measures.broken_fraction = .5;
   const State state = with_rows<std::int32_t>(state_of(old), "state/version", {2});
   FailureMeasures read;
   set_state(read, state);
@@ -270,8 +271,8 @@ TEST(crack_planes, a_cut_through_the_specimen_is_one_plane_at_its_angle) {
     EXPECT_NEAR(planes[0].inclination / degree, angle, 1) << angle;
     EXPECT_NEAR(std::abs(planes[0].normal.x), std::cos(angle * degree), .02) << angle;
     EXPECT_GT(planes[0].flatness, .9) << angle;
-    EXPECT_GT(sum.share, .98) << angle;
-    EXPECT_EQ(sum.steep_share > .9, angle < 15) << angle;
+    EXPECT_GT(sum.fraction, .98) << angle;
+    EXPECT_EQ(sum.steep_fraction > .9, angle < 15) << angle;
     EXPECT_NEAR(norm(planes[0].centre - Vector3{0, 0, c.height() / 2}), 0, 2 * radius) << angle;
     // An ellipse with half-axes a and b has scatters a/2 and b/2.
     const double longer = std::max(1.0, 1 / std::max(.3, std::sin(angle * degree)));
@@ -309,10 +310,10 @@ TEST(crack_planes, a_sheet_is_found_in_diffuse_damage) {
 TEST(crack_planes, an_intact_specimen_and_a_crushed_one_have_none) {
   Cylinder c;
   EXPECT_TRUE(find_crack_planes(c.particles, c.bonds).empty());
-  EXPECT_TRUE(std::isnan(sum_up({}, c.bonds).share));
+  EXPECT_TRUE(std::isnan(sum_up({}, c.bonds).fraction));
   c.cut([](const Vector3 &) { return Cylinder::crumbs; });
   EXPECT_TRUE(find_crack_planes(c.particles, c.bonds).empty());
-  EXPECT_EQ(sum_up({}, c.bonds).share, 0);
+  EXPECT_EQ(sum_up({}, c.bonds).fraction, 0);
 }
 
 TEST(crack_rose, cracks_that_face_all_directions_alike_give_one_everywhere) {

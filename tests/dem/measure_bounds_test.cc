@@ -121,7 +121,7 @@ TEST(measure_bounds, failure_is_measured_in_widths_and_shares_of_the_specimen) {
   const FailureMeasures m = measure_failure(c.particles, c.bonds, c.shape, {}, {});
   EXPECT_NEAR(m.width, 2 * Cylinder::width * radius, 1e-12);
   EXPECT_EQ(m.height, c.height());
-  EXPECT_NEAR(m.broken_share, broken / static_cast<double>(c.bonds.initial_count()), 1e-12);
+  EXPECT_NEAR(m.broken_fraction, broken / static_cast<double>(c.bonds.initial_count()), 1e-12);
 }
 
 // Box and cylinder hold what is nearer to the axis than their walls, along each of their own widths.

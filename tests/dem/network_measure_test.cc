@@ -53,8 +53,8 @@ TEST(network, shares_of_the_energy_are_the_work_of_the_load) {
   for (const ModelSettings &settings : {bonded(), beams()}) {
     Pulled pulled(settings);
     Particles &p = pulled.model.particles;
-    const EnergyShares shares =
-        energy_shares(p, *pulled.model.bonds, pulled.state.displacement, pulled.state.turn);
+    const BondEnergies shares =
+        bond_energies(p, *pulled.model.bonds, pulled.state.displacement, pulled.state.turn);
     double work = 0;
     int top = 0;
     for (std::size_t i = 0; i < p.size(); ++i)
@@ -70,7 +70,7 @@ TEST(network, shares_of_the_energy_are_the_work_of_the_load) {
       (*p.orientation)[i] = rotation_quaternion(pulled.state.turn[i]);
     }
     EXPECT_NEAR(bond_energy(p, *pulled.model.bonds), shares.total(), 5e-3 * shares.total());
-    EXPECT_NEAR(energy_shares(p, *pulled.model.bonds).total(), shares.total(), 1e-6 * shares.total());
+    EXPECT_NEAR(bond_energies(p, *pulled.model.bonds).total(), shares.total(), 1e-6 * shares.total());
   }
 }
 
@@ -83,7 +83,7 @@ TEST(network, a_beam_stores_what_it_is_asked_to) {
     std::vector<Vector3> displacement(2), turned(2);
     displacement[far] = u;
     turned[far] = turn;
-    return energy_shares(model.particles, *model.bonds, displacement, turned);
+    return bond_energies(model.particles, *model.bonds, displacement, turned);
   };
   const double u = 1e-6, angle = 1e-3;
   EXPECT_NEAR(shares({0, 0, u}, {}).axial, 40e9 * section / l * u * u / 2,
@@ -114,14 +114,14 @@ TEST(network, mean_stress_of_a_slab_is_the_load_over_the_section) {
 
 TEST(network, a_line_lies_in_a_region_by_the_share_that_is_inside) {
   const Region slab{box(2, 4, 1), 3};
-  EXPECT_DOUBLE_EQ(slab.share_inside({0, 0, 2}, {0, 0, 5}), 1.0 / 3);
-  EXPECT_DOUBLE_EQ(slab.share_inside({0, 0, 3.5}, {4, 0, 3.5}), .25);
-  EXPECT_DOUBLE_EQ(slab.share_inside({3, 0, 3.5}, {4, 0, 3.5}), 0);
-  EXPECT_DOUBLE_EQ(slab.share_inside({1.5, 0, 3.2}, {1.5, 0, 3.8}), 0); // beside it, along a wall
+  EXPECT_DOUBLE_EQ(slab.fraction_inside({0, 0, 2}, {0, 0, 5}), 1.0 / 3);
+  EXPECT_DOUBLE_EQ(slab.fraction_inside({0, 0, 3.5}, {4, 0, 3.5}), .25);
+  EXPECT_DOUBLE_EQ(slab.fraction_inside({3, 0, 3.5}, {4, 0, 3.5}), 0);
+  EXPECT_DOUBLE_EQ(slab.fraction_inside({1.5, 0, 3.2}, {1.5, 0, 3.8}), 0); // beside it, along a wall
   const Region round{cylinder(2, 10), 0};
-  EXPECT_DOUBLE_EQ(round.share_inside({-4, 0, 5}, {4, 0, 5}), .5);
-  EXPECT_DOUBLE_EQ(round.share_inside({1, 1, 9}, {1, 1, 11}), .5);
-  EXPECT_DOUBLE_EQ(round.share_inside({-4, 2.1, 5}, {4, 2.1, 5}), 0);
+  EXPECT_DOUBLE_EQ(round.fraction_inside({-4, 0, 5}, {4, 0, 5}), .5);
+  EXPECT_DOUBLE_EQ(round.fraction_inside({1, 1, 9}, {1, 1, 11}), .5);
+  EXPECT_DOUBLE_EQ(round.fraction_inside({-4, 2.1, 5}, {4, 2.1, 5}), 0);
 }
 
 TEST(network, a_uniform_strain_is_found_whatever_turns_with_it) {

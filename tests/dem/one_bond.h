@@ -26,14 +26,16 @@ CohesiveResponse<double> act(const Law &law, typename Law::template State<double
   return law(s, g, m);
 }
 // What sums over bonds ask for.
-inline HeldByBond<double> held(const ElastoDamagePlastic &law, const CohesiveState<double> &s,
-                               const CohesiveGeometry<double> &g, const BondMotion<double> &pose) {
-  return law.parameters.moments ? BendingCohesive{law}.held(s, g, pose) : law.held(s, g, pose);
+inline ForceAndEnergy<double> force_and_energy(const ElastoDamagePlastic &law, const CohesiveState<double> &s,
+                                               const CohesiveGeometry<double> &g,
+                                               const BondMotion<double> &pose) {
+  return law.parameters.moments ? BendingCohesive{law}.force_and_energy(s, g, pose)
+                                : law.force_and_energy(s, g, pose);
 }
 template <class Law>
-HeldByBond<double> held(const Law &law, const typename Law::template State<double> &s,
-                        const CohesiveGeometry<double> &g, const BondMotion<double> &pose) {
-  return law.held(s, g, pose);
+ForceAndEnergy<double> force_and_energy(const Law &law, const typename Law::template State<double> &s,
+                                        const CohesiveGeometry<double> &g, const BondMotion<double> &pose) {
+  return law.force_and_energy(s, g, pose);
 }
 
 // The first sphere stays where it is, both turn.

@@ -153,7 +153,7 @@ TEST(TiledPacking, tells_its_tiles_and_their_period) {
   EXPECT_NEAR(r.tiles, tiles_in(tiled().specimen.shape, 1e-3, 0.3, 300), 0.02 * r.tiles);
   EXPECT_NEAR(std::pow(r.period, 3) * r.tiles, tiled().specimen.shape.volume(), 1e-14);
   EXPECT_EQ(r.tile.spheres, 300u);
-  EXPECT_EQ(r.whole.spheres, tiled().specimen.size());
+  EXPECT_EQ(r.specimen.spheres, tiled().specimen.size());
 }
 
 TEST(TiledPacking, is_packed_like_one_that_was_grown_between_its_walls) {

@@ -164,7 +164,7 @@ TYPED_TEST(RememberingLaw, balances_forces_and_energy_on_any_path) {
                          norm(vector(bond.now.torque_i)) + norm(vector(bond.now.torque_j)) + force * length;
         expect_near(bond.now.torque_i + bond.now.torque_j, vector(lever), 1e-12 * torque);
         const BondResponse<double> told = bond.law.bond_response(bond.state, bond.geometry, bond.pose);
-        const HeldByBond<double> held = examples::held(
+        const ForceAndEnergy<double> held = examples::force_and_energy(
             bond.law, bond.state, bond.geometry, {bond.pose.distance, bond.pose.turn_i, bond.pose.turn_j});
         expect_near(told.force, vector(bond.now.force), 1e-10 * force);
         expect_near(held.force, vector(bond.now.force), 1e-10 * force);

@@ -58,7 +58,7 @@ TEST(BlockGraph, of_a_row_of_spheres_is_a_chain_of_blocks) {
   EXPECT_NEAR(graph.weight[2], 99 + 100 * work_of_a_particle, 1e-9); // the last sphere begins no bond
   EXPECT_NEAR(graph.centre[1].x, 2 * radius * (512 + 255.5), 1e-12);
   EXPECT_NEAR(graph.centre[2].x, 2 * radius * (1024 + 49.5), 1e-12);
-  require_whole(graph);
+  require_consistent(graph);
 }
 
 TEST(BlockGraph, counts_a_ghost_once_however_many_bonds_reach_it_and_keeps_far_neighbours) {
@@ -80,18 +80,18 @@ TEST(BlockGraph, contacts_add_to_the_work_and_to_the_ghosts) {
   EXPECT_DOUBLE_EQ(graph.weight[0], before + 3);
   EXPECT_EQ(graph.neighbour, (std::vector<int>{1, 2, 0, 2, 0, 1}));
   EXPECT_EQ(graph.edge_weight, (std::vector<double>{2, 1, 2, 1, 1, 1}));
-  require_whole(graph);
+  require_consistent(graph);
   EXPECT_THROW(add_pairs(graph, chain(100)), std::invalid_argument);
 }
 
 TEST(BlockGraph, that_is_not_whole_is_refused) {
   const BlockGraph whole = box_of_blocks(3, 2, 1);
-  require_whole(whole);
-  require_whole(BlockGraph{{}, {}, {0}, {}, {}});
+  require_consistent(whole);
+  require_consistent(BlockGraph{{}, {}, {0}, {}, {}});
   const auto refused = [&](const char *what, auto change) {
     BlockGraph graph = whole;
     change(graph);
-    EXPECT_THROW(require_whole(graph), std::invalid_argument) << what;
+    EXPECT_THROW(require_consistent(graph), std::invalid_argument) << what;
   };
   refused("negative weight", [](BlockGraph &g) { g.weight[1] = -1; });
   refused("weight nan", [](BlockGraph &g) { g.weight[1] = std::nan(""); });

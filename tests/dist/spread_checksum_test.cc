@@ -25,19 +25,19 @@ std::vector<FilePiece> in_turn(const std::string &text, std::size_t length, int 
 TEST(SpreadChecksum, is_that_of_one_rank_that_has_all) {
   for (const std::size_t length : {1, 31, 32, 33, 1000, 4096})
     for (const std::size_t piece : {1, 5, 32, 700, 5000})
-      for (const std::size_t share :
-           {1, 7, 300, 100000}) {          // smaller than a piece, than a lane, than the text
-        if (length / share > 40) continue; // many messages, nothing new
+      for (const std::size_t portion :
+           {1, 7, 300, 100000}) {            // smaller than a piece, than a lane, than the text
+        if (length / portion > 40) continue; // many messages, nothing new
         const std::string text = text_of(length);
-        const auto hashes = xxh64_of(MPI_COMM_WORLD, {in_turn(text, piece, 0)}, share);
+        const auto hashes = xxh64_of(MPI_COMM_WORLD, {in_turn(text, piece, 0)}, portion);
         ASSERT_EQ(hashes.size(), 1u);
         EXPECT_EQ(hashes[0], XXH64(text.data(), text.size(), 0))
-            << length << " bytes in pieces of " << piece << ", shares of " << share;
+            << length << " bytes in pieces of " << piece << ", shares of " << portion;
       }
 }
 
 TEST(SpreadChecksum, of_a_long_text_is_shared_out) {
-  const std::string text = text_of(3000001); // shares above the least
+  const std::string text = text_of(3000001); // portions above the least
   const auto hashes = xxh64_of(MPI_COMM_WORLD, {in_turn(text, 12288, 1)});
   EXPECT_EQ(hashes[0], XXH64(text.data(), text.size(), 0));
 }
@@ -77,12 +77,12 @@ TEST(SpreadChecksum, of_a_text_with_a_gap_is_refused_on_all_ranks) {
 }
 
 TEST(SpreadChecksum, of_a_text_that_grows_is_that_of_the_whole) {
-  for (const std::uint64_t share : {7, 300, 100000}) {
+  for (const std::uint64_t portion : {7, 300, 100000}) {
     const std::string head = text_of(45), first = text_of(1000), middle = text_of(33), last = text_of(700);
-    SpreadHash hash(MPI_COMM_WORLD, share);
+    SpreadHash hash(MPI_COMM_WORLD, portion);
     const auto expect = [&](const std::string &all) {
       EXPECT_EQ(hash.value(), XXH64(all.data(), all.size(), 0))
-          << all.size() << " bytes, shares of " << share;
+          << all.size() << " bytes, shares of " << portion;
     };
     expect("");
     hash.add_of_first(head.data(), head.size());

@@ -11,8 +11,8 @@ class Standstill : public Stage {
 public:
   explicit Standstill(double seconds) : seconds_(seconds) {}
   std::string name() const override { return "standstill"; }
-  void command(const Measures &, Commands &asked) override {
-    asked[0].velocity = asked[1].velocity = {0, 0, 0};
+  void command(const Measures &, Commands &commands) override {
+    commands[0].velocity = commands[1].velocity = {0, 0, 0};
   }
   bool has_ended(const Measures &m) const override { return m.time() - begun() >= seconds_; }
   double expected_seconds() const override { return seconds_; }

@@ -75,8 +75,8 @@ struct YieldingBond {
     return r;
   }
   template <class Real>
-  HeldByBond<Real> held(const State<Real> &s, const CohesiveGeometry<Real> &g,
-                        const BondMotion<Real> &pose) const {
+  ForceAndEnergy<Real> force_and_energy(const State<Real> &s, const CohesiveGeometry<Real> &g,
+                                        const BondMotion<Real> &pose) const {
     const CohesiveResponse<Real> r = response(s, g, pose.distance);
     return {r.force, r.energy};
   }
