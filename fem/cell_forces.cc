@@ -89,7 +89,7 @@ PLATEN_WIDTHS CellForce cell_force(const NeoHookean &law, const ReferenceCell &c
   Points norm2 = f[0] * f[0];
   for (int k = 1; k < 9; ++k)
     norm2 += f[k] * f[k];
-  const Points beside = weight * along - shape * norm2 / (3 * j);
+  const Points of_cofactors = weight * along - shape * norm2 / (3 * j);
   const Points energy = 0.5 * (shape * norm2 - 3 * law.shear_modulus * weight);
   CellForce result;
   result.energy = cell.volume * law.volume_energy(ratio);
@@ -97,7 +97,7 @@ PLATEN_WIDTHS CellForce cell_force(const NeoHookean &law, const ReferenceCell &c
     result.energy += energy[q];
   TensorOfPoints p; // first Piola-Kirchhoff stress times weight
   for (int k = 0; k < 9; ++k)
-    p[k] = shape * f[k] + beside * cof[k];
+    p[k] = shape * f[k] + of_cofactors * cof[k];
   const double *gradient = &cell.gradient[0][0][0];
   double *force = &result.force[0].x;
   for (int a = 0; a < 8; ++a) {
@@ -105,10 +105,10 @@ PLATEN_WIDTHS CellForce cell_force(const NeoHookean &law, const ReferenceCell &c
     for (int c = 0; c < 3; ++c)
       read(gradient + 8 * (3 * a + c), g[c]);
     for (int i = 0; i < 3; ++i) {
-      const Points share = p[3 * i] * g[0] + p[3 * i + 1] * g[1] + p[3 * i + 2] * g[2];
+      const Points contribution = p[3 * i] * g[0] + p[3 * i + 1] * g[1] + p[3 * i + 2] * g[2];
       double sum = 0;
       for (int q = 0; q < 8; ++q)
-        sum += share[q];
+        sum += contribution[q];
       force[3 * a + i] = sum;
     }
   }

@@ -157,14 +157,14 @@ std::vector<Stress> nodal_stress(const ElasticModel &model, const std::vector<Ve
   const dealii::MappingQ<3> mapping(1);
   dealii::FEValues<3> values(mapping, model.numbers->get_fe(), gauss, dealii::update_gradients);
   // Weights of the Gauss points for each node: one point alone, or trilinear extrapolation from eight.
-  std::vector<double> share(n * gauss.size(), 1.0);
+  std::vector<double> factor(n * gauss.size(), 1.0);
   if (model.degree == 2)
     for (std::size_t a = 0; a < n; ++a)
       for (unsigned int q = 0; q < gauss.size(); ++q)
         for (unsigned int k = 0; k < 3; ++k) {
           const double x = 2 * model.numbers->get_fe().get_unit_support_points()[a][k] - 1;
           const double sign = gauss.point(q)[k] > 0.5 ? 1 : -1;
-          share[a * gauss.size() + q] *= 0.5 * (1 + sign * std::sqrt(3.0) * x);
+          factor[a * gauss.size() + q] *= 0.5 * (1 + sign * std::sqrt(3.0) * x);
         }
   std::map<std::pair<int, int>, std::pair<Stress, int>> sums; // by node and material
   std::vector<Stress> result(model.cell_nodes.size()), local;
@@ -175,7 +175,7 @@ std::vector<Stress> nodal_stress(const ElasticModel &model, const std::vector<Ve
     for (std::size_t a = 0; a < n; ++a) {
       auto &[sum, count] = sums[{model.cell_nodes[n * number + a], model.cell_material[number]}];
       for (unsigned int q = 0; q < gauss.size(); ++q)
-        add(sum, share[a * gauss.size() + q], local[q]);
+        add(sum, factor[a * gauss.size() + q], local[q]);
       ++count;
     }
   }

@@ -111,13 +111,13 @@ double norm_of(const std::vector<double> &blocks, const std::vector<double> &mas
 
 // Mass at the nodes. Degree 2: quadrature at the nodes (Gauss-Lobatto), exact for the volume of a trilinear
 // cell and its first moments. Degree 1: the integral of each shape function, since two points are not exact.
-void lump(const dealii::FEValues<3> &values, int degree, std::vector<double> &share) {
-  std::fill(share.begin(), share.end(), 0.0);
+void lump(const dealii::FEValues<3> &values, int degree, std::vector<double> &lumped) {
+  std::fill(lumped.begin(), lumped.end(), 0.0);
   for (const unsigned int q : values.quadrature_point_indices())
-    for (std::size_t a = 0; a < share.size(); ++a)
+    for (std::size_t a = 0; a < lumped.size(); ++a)
       if (const double shape = values.shape_value(static_cast<unsigned int>(a), q);
           degree == 1 || shape > 0.5)
-        share[a] += shape * values.JxW(q);
+        lumped[a] += shape * values.JxW(q);
 }
 
 } // namespace
@@ -146,23 +146,23 @@ ElasticModel make_elastic_model(const Grid &grid, int degree, std::vector<Materi
   dealii::FEValues<3> masses(mapping, element, degree == 1 ? dealii::Quadrature<3>(gauss) : lobatto,
                              dealii::update_values | dealii::update_JxW_values);
   const std::size_t n = element.n_dofs_per_cell();
-  std::vector<double> blocks(9 * n * n), share(n);
+  std::vector<double> blocks(9 * n * n), lumped(n);
   model.mass.assign(model.nodes.size(), 0.0);
   for (const auto &cell : model.numbers->active_cell_iterators()) {
     const std::size_t number = cell->active_cell_index();
     values.reinit(cell), masses.reinit(cell);
     const Material &material = model.materials[cell->material_id()];
-    lump(masses, degree, share);
+    lump(masses, degree, lumped);
     double cell_volume = 0;
     for (std::size_t a = 0; a < n; ++a) {
-      require(share[a] > 0, "elastic solid: " + name_of(cell) + " is warped through itself");
-      cell_volume += share[a];
-      share[a] *= material.density;
-      model.mass[static_cast<std::size_t>(model.cell_nodes[n * number + a])] += share[a];
+      require(lumped[a] > 0, "elastic solid: " + name_of(cell) + " is warped through itself");
+      cell_volume += lumped[a];
+      lumped[a] *= material.density;
+      model.mass[static_cast<std::size_t>(model.cell_nodes[n * number + a])] += lumped[a];
     }
     model.volume += cell_volume;
     integrate_cell(values, lame(material), blocks);
-    model.cell_bound = std::max(model.cell_bound, norm_of(blocks, share));
+    model.cell_bound = std::max(model.cell_bound, norm_of(blocks, lumped));
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t b = 0; b < n; ++b) {
         double *sum = model.stiffness.find(static_cast<std::size_t>(model.cell_nodes[n * number + a]),

@@ -39,8 +39,8 @@ void ElasticSolid::set_velocity(const Vector3 &velocity, const Vector3 &angular_
   const double before = is_static() ? 0.5 * dot(angular_velocity_, spin_) : held_kinetic_energy();
   if (turns()) {
     // The seat's velocity jump also acts on the rotor's inertia; a prescribed change of rotation is added.
-    const Vector3 asked = angular_velocity - angular_velocity_;
-    spin_ = spin_ + to_space(rotor_ * to_frame(asked));
+    const Vector3 change = angular_velocity - angular_velocity_;
+    spin_ = spin_ + to_space(rotor_ * to_frame(change));
     if (!is_static()) spin_ = spin_ - cross(to_space(rotor_arm_), velocity - velocity_);
     find_angular_velocity();
   } else {
@@ -89,7 +89,7 @@ void ElasticSolid::place_held() {
 }
 
 void ElasticSolid::place_surface() {
-  const double s = is_static() ? share() : 0;
+  const double s = is_static() ? path_fraction() : 0;
   for (std::size_t v = 0; v < node_of_.size(); ++v) {
     const auto node = static_cast<std::size_t>(node_of_[v]);
     if (is_static()) {

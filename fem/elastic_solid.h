@@ -9,8 +9,8 @@
 // Explicit: central differences with lumped mass. Loads act as impulses (kick) before and after a drift,
 // which takes as many substeps as it needs under internal forces alone (impulses of two step sizes:
 // Grubmueller et al. 1991, Tuckerman et al. 1992): second order in both steps, and velocity Verlet with one
-// substep. Quasi-static: no inertia of deformation; aim() solves for the shape under given loads, drift moves
-// to it at constant velocity.
+// substep. Quasi-static: no inertia of deformation; solve_for() solves for the shape under given loads, drift
+// moves to it at constant velocity.
 #pragma once
 
 #include <array>
@@ -94,16 +94,16 @@ public:
   // Quasi-static: solves for the shape under loads (N, global axes, one per vertex: a mean over the time
   // since the last call) and moves to it at constant velocity over `duration` (s); 0: at once, with zero
   // velocity. Throws std::logic_error for an explicit body.
-  void aim(const std::vector<Vector3> &vertex_loads, double duration);
-  // Stiffness of the contacts that load each vertex (N/m, at least half of the true value). aim() with a
-  // duration then includes these springs, anchored at the mean position of the body under the loads. Without
-  // them the loads oscillate with growing amplitude from solve to solve where the body is softer than its
-  // contacts. At rest they have no effect. Quasi-static, before the first aim().
+  void solve_for(const std::vector<Vector3> &vertex_loads, double duration);
+  // Stiffness of the contacts that load each vertex (N/m, at least half of the true value). solve_for() with
+  // a duration then includes these springs, anchored at the mean position of the body under the loads.
+  // Without them the loads oscillate with growing amplitude from solve to solve where the body is softer than
+  // its contacts. At rest they have no effect. Quasi-static, before the first solve_for().
   void set_support(const std::vector<double> &vertex_stiffness);
   // Number of solves until the supported body is within 1/e of its final position along a direction (unit,
   // frame's axes): about 2 + 3/2 D/K for springs D on a body K. After set_support().
   double solves_behind(const Vector3 &direction);
-  LinearSolver solver_kind() const; // direct or multigrid, once aim() was called
+  LinearSolver solver_kind() const; // direct or multigrid, once solve_for() was called
 
   double kinetic_energy() const; // J
   EnergyBalance energy_balance() const override;
@@ -151,7 +151,7 @@ private:
   void slide(double impulse);
 
   // Quasi-static.
-  double share() const { return duration_ > 0 ? elapsed_ / duration_ : 1.0; } // fraction of the path
+  double path_fraction() const { return duration_ > 0 ? elapsed_ / duration_ : 1.0; } // fraction of the path
   double path_strain() const;
   void measure_path();
   void drift_evenly(double dt);
@@ -186,7 +186,7 @@ private:
   };
   std::vector<Kicked> kicked_;          // nodes with loads since the last drift
   double pushed_ = 0;                   // N s, the same for a sliding clamp
-  std::vector<StaticEquations> solver_; // none until the first aim()
+  std::vector<StaticEquations> solver_; // none until the first solve_for()
   std::vector<double> support_;         // N/m per node; empty without support
   NodeMatrix supported_;                // stiffness and support
   std::vector<StaticEquations> supported_solver_;

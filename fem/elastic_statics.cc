@@ -10,7 +10,7 @@ std::vector<Vector3> ElasticSolid::deformation() const {
   if (!is_static()) return strained_;
   std::vector<Vector3> u(start_.size());
   for (std::size_t i = 0; i < u.size(); ++i)
-    u[i] = start_[i] + share() * (target_[i] - start_[i]);
+    u[i] = start_[i] + path_fraction() * (target_[i] - start_[i]);
   return u;
 }
 
@@ -54,7 +54,7 @@ double ElasticSolid::kinetic_energy() const {
 }
 
 double ElasticSolid::path_strain() const {
-  return path_[0] + share() * (path_[1] + share() * path_[2]);
+  return path_[0] + path_fraction() * (path_[1] + path_fraction() * path_[2]);
 }
 
 void ElasticSolid::measure_path() {
@@ -72,7 +72,7 @@ std::vector<FaceCompliance> ElasticSolid::face_compliance() const {
   return fem::face_compliance(model_, node_surface(model_), fixed_);
 }
 
-void ElasticSolid::aim(const std::vector<Vector3> &vertex_loads, double duration) {
+void ElasticSolid::solve_for(const std::vector<Vector3> &vertex_loads, double duration) {
   if (!is_static()) throw std::logic_error("elastic solid: only a quasi-static body is solved for");
   if (vertex_loads.size() != node_of_.size())
     throw std::invalid_argument("elastic solid: one load per surface vertex, please");

@@ -77,9 +77,9 @@ public:
 private:
   // The core's sides bulge a little towards the circle, so that the corners of the first ring stay wide.
   Vector3 core_point(int i, int j) const {
-    const double share = static_cast<double>(n_) / (n_ + 2.0 * rings_), bulge = 0.15;
+    const double core_fraction = static_cast<double>(n_) / (n_ + 2.0 * rings_), bulge = 0.15;
     const double a = 2.0 * i / n_ - 1.0, b = 2.0 * j / n_ - 1.0;
-    const double s = radius_ * share;
+    const double s = radius_ * core_fraction;
     return {s * a * (1.0 - bulge * b * b), s * b * (1.0 - bulge * a * a), 0};
   }
   Vector3 ring_point(int ring, int k) const {

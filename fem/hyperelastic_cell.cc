@@ -108,11 +108,11 @@ CellStress cell_stress(const NeoHookean &law, const ReferenceCell &cell, const C
   result.volume_ratio = at.volume / cell.volume;
   for (std::size_t q = 0; q < 8; ++q) {
     const Tensor f = tensor_at(at.f, q);
-    const double share = cell.weight[q] * law.shape_factor(at.j[q]) / at.volume, third = squared_norm(f) / 3;
+    const double factor = cell.weight[q] * law.shape_factor(at.j[q]) / at.volume, third = squared_norm(f) / 3;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t k = 0; k < 3; ++k)
-        result.cauchy[3 * i + k] += share * (f[3 * i] * f[3 * k] + f[3 * i + 1] * f[3 * k + 1] +
-                                             f[3 * i + 2] * f[3 * k + 2] - (i == k ? third : 0.0));
+        result.cauchy[3 * i + k] += factor * (f[3 * i] * f[3 * k] + f[3 * i + 1] * f[3 * k + 1] +
+                                              f[3 * i + 2] * f[3 * k + 2] - (i == k ? third : 0.0));
   }
   for (std::size_t i = 0; i < 3; ++i)
     result.cauchy[4 * i] += law.volume_stress(result.volume_ratio);
@@ -167,10 +167,10 @@ FaceCorners corner_areas(const FaceCorners &place) {
 double swept_volume(const FaceCorners &from, const FaceCorners &to) {
   const double off = 0.5 / std::sqrt(3.0);
   double volume = 0;
-  for (const double share : {0.5 - off, 0.5 + off}) {
+  for (const double fraction : {0.5 - off, 0.5 + off}) {
     FaceCorners place;
     for (std::size_t k = 0; k < 4; ++k)
-      place[k] = (1 - share) * from[k] + share * to[k];
+      place[k] = (1 - fraction) * from[k] + fraction * to[k];
     const FaceCorners areas = corner_areas(place);
     for (std::size_t k = 0; k < 4; ++k)
       volume += 0.5 * dot(areas[k], to[k] - from[k]);

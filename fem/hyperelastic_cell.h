@@ -25,7 +25,7 @@ struct ReferenceCell {
       gradient{};                        // 1/m, of each corner's shape function: corner, component
   AtPoints weight{};                     // m^3
   std::array<double, 8> corner_volume{}; // m^3, triple product of the edges at each corner
-  std::array<double, 8> share{};         // m^3, integral of each corner's shape function
+  std::array<double, 8> node_volume{};   // m^3, integral of each corner's shape function
   double volume = 0;                     // m^3
 
   Vector3 gradient_at(std::size_t point, std::size_t corner) const {

@@ -147,15 +147,15 @@ CellStiffness HyperelasticSolid::total_stiffness(std::size_t cell) const {
 
 // One block for each pair of nodes that share a cell.
 void HyperelasticSolid::lay_out_stiffness() {
-  std::vector<int> beside;
+  std::vector<int> neighbours;
   for (std::size_t n = 0; n < mesh_.nodes.size(); ++n) {
-    beside.clear();
+    neighbours.clear();
     for (std::size_t k = mesh_.first_corner[n]; k < mesh_.first_corner[n + 1]; ++k)
       for (const int other : mesh_.cell_nodes[mesh_.corner[k] / 8])
-        beside.push_back(other);
-    std::sort(beside.begin(), beside.end());
-    beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
-    stiffness_.column.insert(stiffness_.column.end(), beside.begin(), beside.end());
+        neighbours.push_back(other);
+    std::sort(neighbours.begin(), neighbours.end());
+    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+    stiffness_.column.insert(stiffness_.column.end(), neighbours.begin(), neighbours.end());
     stiffness_.begin.push_back(stiffness_.column.size());
   }
 }
@@ -187,7 +187,7 @@ double HyperelasticSolid::stable_step() const {
     Largest largest;
     for (std::size_t c = first; c < last; ++c) {
       cells[c] = total_stiffness(c);
-      largest += {eigenvalue_bound(cells[c], mesh_.cells[c].share) / material_.density};
+      largest += {eigenvalue_bound(cells[c], mesh_.cells[c].node_volume) / material_.density};
     }
     return largest;
   };

@@ -29,9 +29,9 @@ HyperelasticSolid::HyperelasticSolid(const Grid &grid, const Rubber &material,
     ++first_face_[index(face.cell) + 1];
   for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
     first_face_[c + 1] += first_face_[c];
-  for (const double share : mesh_.node_volume) {
-    mass_.push_back(material_.density * share);
-    volume_ += share;
+  for (const double volume : mesh_.node_volume) {
+    mass_.push_back(material_.density * volume);
+    volume_ += volume;
   }
   for (std::vector<Vector3> *column : {&displacement_, &velocity_, &next_, &internal_, &pressed_})
     column->assign(nodes, Vector3{});

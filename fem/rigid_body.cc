@@ -67,9 +67,9 @@ void RigidBody::set_velocity(const Vector3 &velocity, const Vector3 &angular_vel
   if (velocity == velocity_ && angular_velocity == angular_velocity_) return;
   if (turns_) {
     const double before = turning_energy();
-    const Vector3 asked = rotate(conjugate(rotation_), angular_velocity - angular_velocity_);
+    const Vector3 change = rotate(conjugate(rotation_), angular_velocity - angular_velocity_);
     spin_ =
-        spin_ + rotate(rotation_, inertia_ * asked) - cross(rotate(rotation_, arm_), velocity - velocity_);
+        spin_ + rotate(rotation_, inertia_ * change) - cross(rotate(rotation_, arm_), velocity - velocity_);
     find_angular_velocity();
     clamp_work_ += turning_energy() - before;
   } else {

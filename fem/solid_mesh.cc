@@ -33,11 +33,11 @@ void read_cells(const dealii::Triangulation<3> &grid, SolidMesh &mesh) {
         const auto gradient = values.shape_grad(a, q);
         for (unsigned int k = 0; k < 3; ++k)
           reference.gradient[a][k][q] = gradient[k];
-        reference.share[a] += values.shape_value(a, q) * values.JxW(q);
+        reference.node_volume[a] += values.shape_value(a, q) * values.JxW(q);
       }
     }
     for (std::size_t a = 0; a < 8; ++a)
-      mesh.node_volume[static_cast<std::size_t>(nodes[a])] += reference.share[a];
+      mesh.node_volume[static_cast<std::size_t>(nodes[a])] += reference.node_volume[a];
     mesh.cells.push_back(reference);
   }
 }

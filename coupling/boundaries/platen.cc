@@ -253,7 +253,7 @@ void ElasticPlaten::finish(const Step &step) {
   if (!quasi_static_) return;
   loads_.add(*body_, step.dt);
   if (loads_.steps() < steps_per_solve_) return;
-  solid_.aim(loads_.mean(), steps_per_solve_ * step.dt);
+  solid_.solve_for(loads_.mean(), steps_per_solve_ * step.dt);
   loads_.reset();
 }
 

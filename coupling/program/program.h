@@ -111,14 +111,13 @@ public:
   virtual int setting() const { return 0; }
 
   double begun() const { return begun_; } // s
-  double closure_gained(const Measures &m) const { return m.closure_strain() - closure_at_begin_; }
   virtual void describe(Archive &archive);
 
 protected:
   virtual void on_begin(const Measures &, const Transfer &) {}
 
 private:
-  double begun_ = 0, closure_at_begin_ = 0; // s, 1
+  double begun_ = 0; // s
 };
 
 class Drive;

@@ -69,7 +69,7 @@ TEST(elastic_platens, a_layer_of_spheres_transmits_the_load) {
     auto &solid = static_cast<fem::ElasticSolid &>(*body);
     const Vector3 load = solid.total_force();
     ASSERT_GT(std::abs(load[2]), 10);
-    solid.aim(solid.contact_loads(), 0); // the shape under the loads of now
+    solid.solve_for(solid.contact_loads(), 0); // the shape under the loads of now
     const std::vector<Vector3> u = solid.deformation();
     std::vector<Vector3> force;
     fem::multiply(solid.model().stiffness, u, force);
@@ -281,7 +281,7 @@ TEST(platen_layers, yield_as_springs_in_series) {
       sum += loads[v].z;
     }
     const std::vector<Vector3> before = solid.surface().vertices;
-    solid.aim(loads, 0);
+    solid.solve_for(loads, 0);
     double mean = 0;
     for (std::size_t v = 0; v < loads.size(); ++v)
       mean += weights[v] * (solid.surface().vertices[v].z - before[v].z);

@@ -85,7 +85,7 @@ struct PressedBlock {
   double settle(double near) {
     constexpr double part = 0.6;
     for (int round = 0; round < 60; ++round) {
-      block.aim(load, 0);
+      block.solve_for(load, 0);
       push();
       const double force = norm(std::accumulate(particles.force.begin(), particles.force.end(), Vector3{}));
       if (std::abs(force - norm(std::accumulate(load.begin(), load.end(), Vector3{}))) < near * force)

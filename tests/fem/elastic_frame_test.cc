@@ -21,7 +21,7 @@ TEST(elastic_solid, rigid_motion_of_any_size_stores_nothing) {
   carried.set_velocity({3, -2, 1}, {0.5 * pi / 0.3, 0, 0});
   for (int k = 0; k < 64; ++k)
     carried.drift(dt);
-  carried.aim(std::vector<Vector3>(carried.surface().vertices.size(), Vector3{}), 0);
+  carried.solve_for(std::vector<Vector3>(carried.surface().vertices.size(), Vector3{}), 0);
   State state = with_rows(state_of(put_there), "state/rotation", std::vector<Quaternion>{carried.rotation()});
   state = with_rows(state, "state/displacement", std::vector<Vector3>{carried.displacement()});
   set_state(put_there, state);
@@ -49,10 +49,10 @@ TEST(elastic_solid, a_turned_body_bends_as_an_upright_one) {
   turned.set_velocity({}, {0, 0.5 * pi, 0});
   turned.drift(1);
   std::vector<Vector3> loads = uneven_loads(upright, 1e3);
-  upright.aim(loads, 0);
+  upright.solve_for(loads, 0);
   for (Vector3 &f : loads)
     f = rotate(turned.rotation(), f);
-  turned.aim(loads, 0);
+  turned.solve_for(loads, 0);
   const auto a = upright.deformation(), b = turned.deformation();
   double size = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -91,7 +91,8 @@ TEST(elastic_solid, a_free_seat_turns_until_the_moment_is_gone) {
       solid.kick(0.5 * dt), solid.drift(dt);
       press();
       solid.kick(0.5 * dt);
-      if (kind == ElasticMotion::quasi_static && k % 50 == 49) solid.aim(solid.contact_loads(), 50 * dt);
+      if (kind == ElasticMotion::quasi_static && k % 50 == 49)
+        solid.solve_for(solid.contact_loads(), 50 * dt);
     }
     EXPECT_LT(norm(solid.moment(solid.centre())), 1e-6 * moment_at_start);
     const Vector3 normal = rotate(solid.rotation(), {0, 0, 1});

@@ -28,7 +28,7 @@ TEST(elastic_solid, the_clamp_bears_what_the_loads_give) {
   ElasticSolid slow(plate(), {steel}, Clamp{}, {1, ElasticMotion::quasi_static});
   const std::vector<Vector3> loads = uneven_loads(slow, 1e4);
   put(slow, loads);
-  slow.aim(loads, 0);
+  slow.solve_for(loads, 0);
   const auto a = solid.deformation(), b = slow.deformation();
   double largest = 0;
   for (const Vector3 &p : b)
@@ -47,9 +47,9 @@ TEST(elastic_solid, a_quasi_static_body_goes_evenly_to_its_shape) {
     options.solver = kind;
     ElasticSolid solid(plate(), {steel}, Clamp{}, options), at_once(plate(), {steel}, Clamp{}, options);
     const std::vector<Vector3> loads = uneven_loads(solid, 1e4);
-    at_once.aim(loads, 0);
+    at_once.solve_for(loads, 0);
     solid.set_velocity({0, 0, -0.1});
-    solid.aim(loads, 1e-5);
+    solid.solve_for(loads, 1e-5);
     EXPECT_EQ(solid.solver_kind(), kind);
     const double dt = 1e-6;
     for (int k = 0; k < 10; ++k) {
@@ -92,7 +92,7 @@ TEST(elastic_solid, work_that_a_body_without_inertia_does_not_hold_is_told_by_it
     };
     const double dt = 1e-6;
     constexpr int steps = 20;
-    solid.aim(loads, steps * dt);
+    solid.solve_for(loads, steps * dt);
     double work = 0;
     std::vector<Vector3> before = load(0);
     for (int k = 0; k < steps; ++k) {
@@ -138,7 +138,7 @@ TEST(elastic_solid, a_supported_body_says_how_many_solves_it_is_behind) {
     };
     std::vector<Vector3> loads(springs.size());
     const auto solve = [&] {
-      solid.aim(loads, 1e-6);
+      solid.solve_for(loads, 1e-6);
       solid.drift(1e-6);
     };
     for (std::size_t v = 0; v < springs.size(); ++v)
@@ -172,7 +172,7 @@ TEST(elastic_solid, grips_that_cannot_hold_are_refused) {
   refused({}, {1, ElasticMotion::quasi_static, 1.0});
   refused({}, {1, ElasticMotion::explicit_steps, -1.0});
   ElasticSolid solid(plate(), {steel}, Clamp{});
-  EXPECT_THROW(solid.aim(solid.contact_loads(), 0), std::logic_error);
+  EXPECT_THROW(solid.solve_for(solid.contact_loads(), 0), std::logic_error);
 }
 
 } // namespace

@@ -62,7 +62,7 @@ struct Elastic : OfPlate {
     return solid;
   }
   static void step(ElasticSolid &solid, int k) {
-    if (is_static && k % 10 == 0) solid.aim(solid.contact_loads(), 3e-6);
+    if (is_static && k % 10 == 0) solid.solve_for(solid.contact_loads(), 3e-6);
     OfPlate::step(solid, k);
   }
 };

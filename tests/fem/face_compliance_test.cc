@@ -59,7 +59,7 @@ TEST(face_compliance, is_the_indentation_of_a_half_space) {
       };
       const std::size_t loaded = vertex(at * h, 0);
       load[loaded] = {0, 0, -1};
-      s.aim(load, 0);
+      s.solve_for(load, 0);
       const auto indentation = [&](std::size_t v) { return before[v][2] - s.surface().vertices[v][2]; };
       double block_share = 0;
       for (const Vector3 &way : {Vector3{4, 0, 0}, Vector3{-4, 0, 0}, Vector3{0, 4, 0}, Vector3{0, -4, 0}})

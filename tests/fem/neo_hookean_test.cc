@@ -121,10 +121,10 @@ TEST(mean_dilatation, the_eigenvalue_bound_is_safe_and_close) {
       Matrix24 scaled(k.data());
       for (Eigen::Index m = 0; m < 24; ++m)
         for (Eigen::Index n = 0; n < 24; ++n)
-          scaled(m, n) /= std::sqrt(cell.share[static_cast<std::size_t>(m / 3)] *
-                                    cell.share[static_cast<std::size_t>(n / 3)]);
+          scaled(m, n) /= std::sqrt(cell.node_volume[static_cast<std::size_t>(m / 3)] *
+                                    cell.node_volume[static_cast<std::size_t>(n / 3)]);
       const double largest = Eigen::SelfAdjointEigenSolver<Matrix24>(scaled).eigenvalues()[23];
-      const double bound = eigenvalue_bound(k, cell.share);
+      const double bound = eigenvalue_bound(k, cell.node_volume);
       EXPECT_GE(bound, largest * (1 - 1e-12));
       EXPECT_LE(bound, 1.22 * largest);
     }
