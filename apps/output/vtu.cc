@@ -177,8 +177,12 @@ void write_discs(const std::filesystem::path &path, double time, const std::vect
 void write_body(const std::filesystem::path &path, double time, const fem::Picture &picture) {
   const auto fields = [](const std::vector<fem::PictureField> &of) {
     std::vector<Field> made;
-    for (const fem::PictureField &field : of)
-      made.push_back({field.name, field.values, field.components});
+    for (fem::PictureField field : of) {
+      // VTK writes the smallest value on several threads: of -0 and 0 it takes either.
+      for (double &value : field.values)
+        value += 0.0;
+      made.push_back({field.name, std::move(field.values), field.components});
+    }
     return made;
   };
   vtkNew<vtkCellArray> cells;

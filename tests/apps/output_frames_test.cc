@@ -11,6 +11,7 @@
 #include <vtkXMLUtilities.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -138,6 +139,18 @@ TEST_F(Vtu, points_of_finite_elements_are_in_the_order_of_vtk) {
   quadratic.degree = 2;
   expect_order(fem::ElasticSolid(block, {steel}, {}).picture(), VTK_HEXAHEDRON);
   expect_order(fem::ElasticSolid(block, {steel}, {}, quadratic).picture(), VTK_TRIQUADRATIC_HEXAHEDRON);
+}
+
+// Zeros of both signs: the smallest value of a file is always the same one.
+TEST_F(Vtu, fields_of_finite_elements_have_no_negative_zero) {
+  const fem::Grid block = fem::make_grid(fem::BoxPlate{{0, 0, 0}, {1, 1, 1}});
+  fem::Picture picture = fem::RigidBody(block, {7850, 210e9, 0.3}).picture();
+  picture.of_points = {{"contact_pressure", 1, {0.0, -0.0, 0.0, -0.0, 5e6, -0.0, 0.0, -0.0}}};
+  write_body(path_, 0, picture);
+  vtkDataArray *pressure = read()->GetPointData()->GetArray(0);
+  for (vtkIdType k = 0; k < 8; ++k)
+    EXPECT_FALSE(std::signbit(pressure->GetComponent(k, 0))) << k;
+  EXPECT_EQ(pressure->GetComponent(4, 0), 5e6);
 }
 
 TEST_F(Vtu, bonds_are_lines_with_values_of_their_own) {
