@@ -1,5 +1,5 @@
-// Particles, lines, discs and finite elements as VTU files for ParaView: binary (raw appended), compressed (zlib),
-// with named fields. Written aside and renamed, so that a file under its name is always whole.
+// Particles, lines, discs and finite elements as VTU files for ParaView: binary (raw appended), compressed
+// (zlib), with named fields. Written aside and renamed, so that a file under its name is always whole.
 #pragma once
 
 #include <array>
