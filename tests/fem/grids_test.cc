@@ -61,6 +61,16 @@ TEST(grids, the_surface_of_a_plate_is_closed_and_holds_its_cells) {
   }
 }
 
+TEST(grids, faces_name_their_cell_and_its_corners) {
+  for (const auto &[name, grid] : plates())
+    for (const BoundaryFace &face : grid->faces)
+      for (std::size_t k = 0; k < 4; ++k)
+        EXPECT_EQ(
+            face.nodes[k],
+            grid->cells.at(static_cast<std::size_t>(face.cell))[static_cast<std::size_t>(face.corners[k])])
+            << name;
+}
+
 // Plates are convex, and so is each strip; the inside of a tube points to its axis.
 TEST(grids, faces_point_out_of_the_solid) {
   for (const auto &[name, grid] : plates()) {
