@@ -15,13 +15,14 @@ bool Controlled::is_met() const {
 }
 
 void Stage::begin(const Measures &m, const Transfer &from, bool first) {
-  if (!first) begun_ = m.time();
+  if (!first) begun_ = m.time(), closure_at_begin_ = m.closure_strain();
   on_begin(m, from);
 }
 
 void Stage::describe(Archive &archive) {
   archive.version(1);
   archive("begun", begun_, "s");
+  archive("closure_at_begin", closure_at_begin_, "1", or_nan());
 }
 
 Program::Program(const Measures &measures, std::vector<std::unique_ptr<Stage>> stages,

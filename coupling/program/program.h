@@ -117,7 +117,7 @@ protected:
   virtual void on_begin(const Measures &, const Transfer &) {}
 
 private:
-  double begun_ = 0; // s
+  double begun_ = 0, closure_at_begin_ = 0; // s, 1; the second is read by nobody but is in checkpoints
 };
 
 class Drive;

@@ -132,10 +132,10 @@ bool is_positive(const std::string &name) {
 }
 // What may be unknown: not reached, or not there.
 bool may_be_nan(const std::string &name) {
-  return is_any(
-      name, {"_at_end", "/found", "/largest", "/zero", "contacts/elastic_energy", "springs/elastic_energy",
-             "springs/force", "/confined_share", "/zero_x", "/zero_y", "/zero_z", "strain_of_turn",
-             "strain_found", "/path", "/unbalanced", "/break_time"}); // of a bond that holds
+  return is_any(name, {"_at_end", "/found", "/largest", "/zero", "contacts/elastic_energy",
+                       "springs/elastic_energy", "springs/force", "/confined_share", "/zero_x", "/zero_y",
+                       "/zero_z", "closure_at_begin", "strain_of_turn", "strain_found", "/path",
+                       "/unbalanced", "/break_time"}); // of a bond that holds
 }
 
 // A state with one number in place of that at `place` in the block.
