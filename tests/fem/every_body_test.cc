@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "base/parallel.h"
 #include "fem/rigid_body.h"
@@ -142,12 +144,28 @@ TYPED_TEST(EveryBody, has_a_picture_of_its_fields_where_its_surface_is) {
   EXPECT_EQ(names, fields);
   for (const PictureField &field : picture.of_cells)
     EXPECT_EQ(field.values.size() * static_cast<std::size_t>(picture.nodes_per_cell), picture.cells.size());
-  for (std::size_t v = 0; v < slip.size(); ++v) { // each vertex is a point, with its slip
+  const auto tractions = body.contact_tractions();
+  for (std::size_t v = 0; v < slip.size(); ++v) { // each vertex is a point, with its tractions and slip
     bool found = false;
-    for (std::size_t n = 0; n < picture.points.size() && !found; ++n)
+    for (std::size_t n = 0; n < picture.points.size() && !found; ++n) {
+      const double *shear = &picture.of_points[1].values[3 * n];
       found = norm(picture.points[n] - body.surface().vertices[v]) < 1e-15 &&
+              Vector3{shear[0], shear[1], shear[2]} == tractions[v].shear &&
+              picture.of_points[2].values[n] == tractions[v].pressure &&
               picture.of_points[3].values[n] == slip[v];
+    }
     ASSERT_TRUE(found) << v;
+  }
+  // Elements of one material that meet at a node show the same there.
+  std::map<std::array<double, 3>, std::size_t> first;
+  for (std::size_t n = 0; n < picture.points.size(); ++n) {
+    const Vector3 &p = picture.points[n];
+    const std::size_t same = first.emplace(std::array<double, 3>{p.x, p.y, p.z}, n).first->second;
+    for (const PictureField &field : picture.of_points) {
+      const auto parts = static_cast<std::size_t>(field.components);
+      for (std::size_t k = 0; k < parts; ++k)
+        ASSERT_EQ(field.values[parts * n + k], field.values[parts * same + k]) << field.name << " at " << n;
+    }
   }
   const std::vector<double> &none = without.of_points[3].values;
   EXPECT_EQ(std::count(none.begin(), none.end(), 0.0), static_cast<std::ptrdiff_t>(none.size()));
