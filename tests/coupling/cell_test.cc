@@ -160,6 +160,26 @@ TEST(sleeve_cell, a_soft_sleeve_is_as_good_as_a_pressure_on_the_skin) {
   EXPECT_LT(std::abs(oil.sleeve_deviator()), 0.01 * a.axial);
 }
 
+// Half as much with springs twice as stiff: it is no volume of the specimen.
+TEST(sleeve_cell, its_volume_also_has_what_its_springs_give_way) {
+  double beyond[2];
+  for (const int stiff : {0, 1}) {
+    PlatenTestSettings settings = in_cell(10e6, true);
+    settings.loading.cell->sleeve_stiffness = stiff == 0 ? 0.02 : 0.04;
+    PlatenTest problem(packed_cylinder(), settings);
+    const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
+    while (!problem.axial_stage())
+      problem.advance(16);
+    // Along the axis it goes with the platens.
+    const double along = clamp_closure(problem) / problem.shape().height;
+    const double lateral = gauge.strain(problem.model.particles).lateral();
+    beyond[stiff] = problem.sleeve_volumetric_strain() - (along + 2 * lateral);
+  }
+  EXPECT_NEAR(beyond[0] / beyond[1], 2, 0.3);
+  EXPECT_NEAR(beyond[0] / (0.08 * dem::mean_radius(packed_cylinder()) / packed_cylinder().shape.radius), 1,
+              0.5);
+}
+
 TEST(sleeve_cell, the_energy_balance_of_sleeve_cell_and_specimen_closes) {
   for (const bool bonded : {true, false}) {
     PlatenTest problem(packed_cylinder(), in_cell(10e6, true, bonded));
