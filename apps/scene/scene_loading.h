@@ -14,7 +14,18 @@
 namespace platen::apps {
 
 // What a platen's face is (apps/scene/surfaces.h); common: of one platen, what both are.
-enum class SurfaceKind { common, custom, dry_steel, thesis, teflon, grease, brush, rubber_sheet, glued };
+enum class SurfaceKind {
+  common,
+  custom,
+  dry_steel,
+  weakening_steel,
+  thesis,
+  teflon,
+  grease,
+  brush,
+  rubber_sheet,
+  glued
+};
 
 struct Face { // of one platen
   SurfaceKind surface = SurfaceKind::common;

@@ -10,11 +10,11 @@
 namespace platen::apps {
 namespace {
 
-// "word: entries (source)"; friction is constant with all of them.
+// "word: entries (source)"; friction is constant unless a law is named.
 std::string documentation(const Surface &of) {
   std::string text;
   for (const auto &[key, value] : of.entries)
-    if (key != "Friction law") text += (text.empty() ? "" : ", ") + key + " = " + value;
+    if (value != "constant") text += (text.empty() ? "" : ", ") + key + " = " + value;
   return of.word + ": " + (text.empty() ? of.source : text + " (" + of.source + ")");
 }
 
@@ -29,6 +29,14 @@ const std::vector<Surface> &surfaces() {
        true,
        "Rabbat and Russell 1985, dry steel on concrete, static; while sliding: the same, for want of a "
        "figure"},
+      {SurfaceKind::weakening_steel,
+       "steel slip weakening",
+       {{"Friction static", "0.13"},
+        {"Friction dynamic", "0.015"},
+        {"Friction law", "slip weakening"},
+        {"Slip length", "1.3 mm"}},
+       true,
+       "the law of Cusatis et al. 2011 with the figures that public codes of it use for dry steel"},
       {SurfaceKind::thesis,
        "thesis",
        {{"Friction static", "0.3"}, {"Friction dynamic", "0.3"}, {"Friction law", "constant"}},

@@ -89,7 +89,8 @@ struct Pressed {
   }
   bool has_free_ends() const { return friction <= free_friction; }
   bool has_steel() const {
-    return friction >= steel_friction && surface != apps::surface(SurfaceKind::rubber_sheet).word &&
+    return (friction >= steel_friction || surface == apps::surface(SurfaceKind::weakening_steel).word) &&
+           surface != apps::surface(SurfaceKind::rubber_sheet).word &&
            surface != apps::surface(SurfaceKind::brush).word;
   }
   std::string text() const {

@@ -109,6 +109,12 @@ TEST_F(Surfaces, the_figures_are_those_of_their_sources) {
   EXPECT_EQ(friction("grease"), 0.0048);  // Bocklenberg et al. 2016
   EXPECT_EQ(friction("custom"), 0.3);     // the default of Friction static
   EXPECT_EQ(scene_with({"Platens/Surface = glued"}).platens.glued, true);
+  const dem::SurfaceFriction falling =
+      scene_with({"Platens/Bottom/Surface = steel slip weakening"}).platens.bottom; // Cusatis et al. 2011
+  EXPECT_EQ(falling.friction_static, 0.13);
+  EXPECT_EQ(falling.friction_dynamic, 0.015);
+  EXPECT_EQ(falling.weakening.by, dem::Weakening::By::slip);
+  EXPECT_DOUBLE_EQ(falling.weakening.slip_length, 1.3e-3);
 }
 
 TEST_F(Surfaces, the_nearer_figure_wins) {
