@@ -1,10 +1,12 @@
 #include "coupling/faults.h"
 
+
 #include <algorithm>
 #include <cmath>
 
 #include "base/shortest_text.h"
 #include "coupling/boundary.h"
+#include "coupling/platens_of_test.h"
 #include "dem/laws/bond_law.h"
 
 namespace platen::coupling {
@@ -24,6 +26,8 @@ public:
     if (p_.elastic) elastic();
     if (p_.machine.yields()) machine();
     if (p_.spherical_seat) seat();
+    if (p_.eccentricity != 0 || p_.tilt != 0) oblique();
+    if (s_.ends > Ends::ground) faces();
     if (presses_by_hertz(s_)) hertz();
     if (l_.start_strain > 0) start();
     if (p_.span > 0) bending();
@@ -108,6 +112,40 @@ private:
               "fixed.");
   }
 
+  // A load beside the axis, and a platen that is not square to it.
+  void oblique() {
+    const auto with = [&](bool broken, const std::string &why, const std::string &allowed) {
+      refuse_if(broken, p_.tilt != 0 ? "platens.tilt" : "platens.eccentricity", why + " Allowed: " + allowed);
+    };
+    refuse_if(p_.eccentricity != 0 && !p_.spherical_seat, "platens.eccentricity",
+              "is of a platen that turns about the load. Allowed: 0, or `platens.spherical_seat` spherical.");
+    if (shape_ != nullptr && shape_->kind != dem::ShapeKind::disc) {
+      const double half = half_width(*shape_);
+      refuse_if(std::abs(p_.eccentricity) >= half, "platens.eccentricity",
+                "puts the load beside the specimen. Allowed: -" + text_of(half) + " ... " + text_of(half) +
+                    " m, without its ends.");
+    }
+    refuse_if(p_.tilt != 0 && p_.elastic.has_value(), "platens.tilt",
+              "is of a rigid platen. Allowed: 0, or rigid platens.");
+    with(p_.glued, "needs `platens.glued` = contact: what is glued fits.", "0.");
+    with(p_.span > 0, "does not go with three point bending.", "0.");
+    with(has_sides(), "does not go with platens on the sides.", "0.");
+    with(l_.start_strain > 0, "needs `loading.start_strain` = 0: the static solve is between square ends.",
+         "0.");
+    with(shape_ != nullptr && shape_->kind == dem::ShapeKind::disc, "is of cylinders and boxes.", "0.");
+  }
+
+  void faces() {
+    const auto with = [&](bool broken, const std::string &why) {
+      refuse_if(broken, "ends", why + " Allowed: ground.");
+    };
+    refuse_if(!(s_.end_height > 0), "end_height", "is not set: ends that are not flat have one. Allowed: above 0 m.");
+    with(p_.glued, "needs `platens.glued` = contact: what is glued fits.");
+    with(p_.span > 0, "does not go with three point bending.");
+    with(l_.start_strain > 0, "needs `loading.start_strain` = 0: the static solve is between flat ends.");
+    with(shape_ != nullptr && shape_->kind == dem::ShapeKind::disc, "is of cylinders and boxes.");
+  }
+
   void hertz() {
     refuse_if(p_.glued, "platens.contact", "presses alone, and ends are glued. Allowed: as grains, linear.");
     refuse_if(l_.start_strain > 0, "loading.start_strain",
@@ -135,7 +173,7 @@ private:
     const auto with = [&](bool broken, const std::string &member, const std::string &allowed) {
       refuse_if(broken, member, "does not go with three point bending. Allowed: " + allowed + ".");
     };
-    refuse_if(s_.ends != Ends::ground, "ends",
+    refuse_if(!are_ground(s_.ends), "ends",
               "would let a bar rock on its outermost spheres. Allowed: ground.");
     refuse_if(p_.strip_width == 0, "platens.strip_width",
               "is not set: a bar is bent by strips. Allowed: > 0 m.");

@@ -181,12 +181,14 @@ void PlatenTest::require_cover(Side side) const {
 
 void PlatenTest::seat_platens(const dem::Specimen &specimen) {
   const double depth = settings_.end_layer * dem::mean_radius(specimen);
-  if (settings_.ends == Ends::ground || settings_.platens.glued) {
-    const auto seats = [&](Platen &platen) {
-      return platen.layer().seat_within(model.particles, platen.body(), depth, bent());
+  if (are_ground(settings_.ends) || settings_.platens.glued) {
+    const auto seats = [&](Platen &platen, Side side) {
+      const auto below = [&](const Vector3 &x) { return depth_of_end(shape(), settings_, side, x); };
+      return platen.layer().seat_within(model.particles, platen.body(), depth, bent(), below);
     };
     for (const Side side : all_sides)
-      if (Platen *platen = platens_[static_cast<std::size_t>(side)]; platen != nullptr && seats(*platen) == 0)
+      if (Platen *platen = platens_[static_cast<std::size_t>(side)];
+          platen != nullptr && seats(*platen, side) == 0)
         throw BadSetup("end_layer",
                        "leaves a platen without a sphere: the nearest lies " +
                            text_of(distance_to_plane(specimen, side)) + " m from the plane of the " +

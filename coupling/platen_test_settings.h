@@ -2,6 +2,7 @@
 // range, words and meaning; messages name a member by its path, which begins with `name`. NaN: not given.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -20,6 +21,7 @@
 namespace platen::coupling {
 
 using Ends = dem::EndPreparation;
+using dem::FacedEnds;
 
 struct PlatenLayer {
   double thickness = 0;                                    // m; not used with a given grid
@@ -75,6 +77,8 @@ struct PlatenSettings {
   // The top platen (an elastic one: its clamp) turns freely about the middle of its face, moved by the
   // machine.
   bool spherical_seat = false;
+  double eccentricity = 0; // m, along x, of the seat from the axis: the load acts there
+  double tilt = 0; // rad, about y, of the top platen as it meets the specimen: lowest at -x if positive
   // m, between the edges of a platen and the planes of its neighbours, which may close by that much; 0: a
   // fiftieth of the specimen's length along that axis.
   double edge_gap = 0;
@@ -141,7 +145,11 @@ struct PlatenTestSettings {
   dem::ModelSettings model;
   Ends ends = Ends::as_packed;
   double end_layer = 1; // mean radii, for ground ends
-  bool seat = false;    // rocking springs of ground spheres
+  // Of ends that are not flat (dem::depth_of_face): m, and which of both; the others are ground.
+  double end_height = 0;
+  FacedEnds end_faces = FacedEnds::top;
+  std::uint64_t end_seed = 1; // rough ends
+  bool seat = false;          // rocking springs of ground spheres
   // Stresses along z are over the part of the section that the specimen fills, which has to be the same at
   // all heights (dem::solid_section); else over the section of the shape.
   bool net_section = false;
@@ -232,6 +240,12 @@ void PlatenSettings::describe(Visitor &&v, Self &p) {
   v("poisson_ratio", p.material.poisson_ratio, "1", between_open(-1, 0.5), "Poisson ratio of the platens.");
   v("glued", p.glued, Words<bool>{{"contact", false}, {"glued", true}},
     "Glued: the end grains are held by the platens, in tension too.");
+  v("eccentricity", p.eccentricity, "m", any_number(),
+    "Along x, of the spherical seat from the axis: the middle of the load.");
+  v("tilt", p.tilt, "rad", between(-0.1, 0.1),
+    "Of a rigid top platen about y, before it meets the specimen: 0 is square to the axis; positive: the "
+    "side "
+    "of -x comes first.");
   v("spherical_seat", p.spherical_seat, Words<bool>{{"fixed", false}, {"spherical", true}},
     "Spherical: the top platen turns freely about the middle of its face, which the machine moves; a "
     "deformable one with its clamp.");

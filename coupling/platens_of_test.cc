@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/pi.h"
+#include "base/portable.h"
 #include "base/shortest_text.h"
 #include "coupling/platen_layers.h"
 #include "fem/grids.h"
@@ -18,7 +19,7 @@
 namespace platen::coupling {
 double platen_plane(const dem::Specimen &s, Side side, Ends ends) {
   const int axis = axis_of(side);
-  if (ends == Ends::ground) return extent(s.shape, axis)[is_high(side)];
+  if (are_ground(ends)) return extent(s.shape, axis)[is_high(side)];
   double plane = (is_high(side) ? -1 : 1) * std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < s.size(); ++i)
     plane = is_high(side) ? std::max(plane, s.centre[i][axis] + s.radius[i])
@@ -26,7 +27,37 @@ double platen_plane(const dem::Specimen &s, Side side, Ends ends) {
   return plane;
 }
 
+double half_width(const dem::Shape &shape) {
+  return shape.kind == dem::ShapeKind::box ? 0.5 * shape.width_x : shape.radius;
+}
+
+double depth_of_end(const dem::Shape &shape, const PlatenTestSettings &settings, Side side,
+                    const Vector3 &centre) {
+  if (axis_of(side) != 2) return 0;
+  const FacedEnds faces = settings.end_faces;
+  const bool faced = faces == FacedEnds::both || (faces == FacedEnds::top) == (side == Side::top);
+  const double tilt = side == Side::top ? settings.platens.tilt : 0;
+  return (faced ? dem::depth_of_face(settings.ends, settings.end_height, shape, centre, settings.end_seed)
+                : 0) +
+         std::abs(portable::sin(tilt)) * half_width(shape) + portable::sin(tilt) * centre.x;
+}
+
 namespace {
+
+// The middle of the top platen's face, about which it turns on a seat.
+Vector3 seat_of(const dem::Specimen &s, const PlatenTestSettings &settings) {
+  const double up = std::abs(portable::sin(settings.platens.tilt)) * half_width(s.shape);
+  return {settings.platens.eccentricity, 0, platen_plane(s, Side::top, settings.ends) + up};
+}
+
+// A plane platen turned about y as it meets the specimen, whose edge it touches.
+fem::Grid tilted(const fem::Grid &grid, const dem::Shape &shape, double tilt, double plane) {
+  const double c = portable::cos(tilt), s = portable::sin(tilt), up = std::abs(s) * half_width(shape);
+  return fem::moved_grid(grid, [=](const Vector3 &x) {
+    const double z = x.z - plane;
+    return Vector3{c * x.x - s * z, x.y, plane + up + s * x.x + c * z};
+  });
+}
 
 // Elastic strips get elements about as wide as long: slender ones need a small time step and sink in.
 std::array<int, 3> elements_of_plate(const PlatenSettings &p, double half_x, double half_y) {
@@ -109,13 +140,14 @@ fem::Grid platen_grid(const dem::Specimen &s, const PlatenTestSettings &settings
     const std::vector<fem::BoxPlate> strips = bending_strips(s, settings, high);
     return made(strips, 0.5 * std::max(p.strip_width, strips[0].high.y - strips[0].low.y));
   } else if (s.shape.kind == dem::ShapeKind::cylinder)
-    return made(fem::CylinderPlate{p.overhang * s.shape.radius, thickness, low, p.elements_across, 2},
+    grid = made(fem::CylinderPlate{p.overhang * s.shape.radius, thickness, low, p.elements_across, 2},
                 p.overhang * s.shape.radius);
   else {
     fem::BoxPlate plate = plate_of_box(s.shape, p, side, low);
     if (s.shape.kind == dem::ShapeKind::disc && p.strip_width > 0) narrow_to_strip(plate, p);
     grid = made(plate, 0.5 * std::max(plate.high.x - plate.low.x, plate.high.y - plate.low.y));
   }
+  if (side == Side::top && p.tilt != 0) return tilted(grid, s.shape, p.tilt, plane);
   if (axis_of(side) == 2) return grid;
   return fem::moved_grid(grid, [&](const Vector3 &x) {
     return from_upright(side, x) + Vector3{0, 0, middle};
@@ -243,7 +275,7 @@ std::unique_ptr<fem::ElasticSolid> elastic_solid(const dem::Specimen &s, const P
   clamp.tag = is_high(side) ? fem::high_end_tag : fem::low_end_tag;
   if (side == Side::top && p.spherical_seat) {
     clamp.turns = true;
-    clamp.seat = {0, 0, platen_plane(s, side, settings.ends)};
+    clamp.seat = seat_of(s, settings);
   }
   if (side == Side::top && p.machine.yields()) clamp.slides = inward(side);
   fem::ElasticOptions options;
@@ -274,8 +306,8 @@ PlatenOfTest new_platen(const dem::Specimen &s, const PlatenTestSettings &settin
     return PlatenOfTest{std::move(platen), elastic};
   };
   if (!p.elastic && p.spherical_seat && side == Side::top) {
-    const Vector3 seat{0, 0, platen_plane(s, side, settings.ends)};
-    auto body = std::make_unique<fem::RigidBody>(platen_grid(s, settings, side), p.material, seat);
+    auto body =
+        std::make_unique<fem::RigidBody>(platen_grid(s, settings, side), p.material, seat_of(s, settings));
     const SurfaceContact contact = contact_settings(model, s, settings, side, *body);
     return on_machine(std::make_unique<SeatedPlaten>(name_of(side), inward(side), std::move(body),
                                                      model.particles, contact));

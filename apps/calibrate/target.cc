@@ -181,7 +181,7 @@ void complete_test(Target &to, const Scene &scene, double tension_rate) {
   }
   add("Specimen/Shape", "disc");
   add_number("Specimen/Height", s.radius, " m");
-  if (s.ends == dem::EndPreparation::ground) add_number("Specimen/End layer", disc_end_layer, "");
+  if (are_ground(s.ends)) add_number("Specimen/End layer", disc_end_layer, "");
   add_number("Loading/Axial rate", l.rate * splitting_rate * s.width() / s.height, " m/s");
   add_number("Loading/Target strain", splitting_strain * l.target_strain, "");
   if (!(scene.platens.strip_width > 0)) add_number("Platens/Strip width", s.width() / strips_across, " m");

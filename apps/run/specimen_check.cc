@@ -76,7 +76,7 @@ SpecimenState state_of(const Scene &scene, const dem::Specimen &specimen, const 
                      coupling::distance_to_plane(specimen, coupling::opposite(coupling::low_side(axis)))};
   // Ground ends are seated by a layer; as packed the platens meet the outermost spheres.
   const double diameter = 2 * test.facts().mean_radius;
-  state.reach = test.settings().ends == coupling::Ends::ground
+  state.reach = are_ground(test.settings().ends)
                     ? 0.5 * test.settings().end_layer * diameter
                     : diameter + std::max({0.0, state.from_ends[0], state.from_ends[1]});
   add_overlap(state, specimen);

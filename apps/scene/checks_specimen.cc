@@ -47,7 +47,7 @@ void SceneCheck::specimen() const {
            "needs a packed specimen, of which platen-bonds has none. Allowed: grains.");
   if (specimen.radius_spread > 0 && specimen.radius_distribution != RadiusKind::uniform)
     refuse("Specimen/Radius spread", "needs Specimen/Radius distribution = uniform.");
-  if (specimen.seat && specimen.ends != dem::EndPreparation::ground)
+  if (specimen.seat && !are_ground(specimen.ends))
     refuse("Specimen/Seat", "needs Specimen/Ends = ground: only a ground sphere has a flat face.");
   if (specimen.seat && !scene_.model.rotation)
     refuse("Specimen/Seat", "needs Effects/Rotation = on: a seat resists rocking.");
@@ -75,8 +75,12 @@ void SceneCheck::specimen() const {
   spheres_fit();
   const bool rim = program_.presses == Presses::discs;
   const double extent = rim ? 2 * specimen.radius : specimen.height;
-  if (specimen.ends == dem::EndPreparation::ground && given(extent) &&
-      2 * specimen.end_layer * specimen.sphere_radius > extent)
+  const double layer = specimen.end_layer * specimen.sphere_radius;
+  if (specimen.ends > dem::EndPreparation::ground && specimen.end_height > layer)
+    refuse("Specimen/End height",
+           "is deeper than the layer of spheres that are cut. Allowed: up to " + shortest_text(layer) +
+               " m, Specimen/End layer times Specimen/Sphere radius, or a deeper layer.");
+  if (are_ground(specimen.ends) && given(extent) && 2 * specimen.end_layer * specimen.sphere_radius > extent)
     refuse("Specimen/End layer", "is too deep: the two layers overlap in Specimen/" +
                                      std::string(rim ? "Radius" : "Height") + " = " +
                                      parameters_.at(rim ? "Specimen/Radius" : "Specimen/Height").text + ".");

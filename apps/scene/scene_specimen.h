@@ -32,7 +32,9 @@ struct SpecimenSection {
   int tile_spheres = 0; // random close: laid out of tiles of so many; 0: grown as a whole
   std::string file;     // Packing = file; resolved against the folder of the scene
   dem::EndPreparation ends = dem::EndPreparation::as_packed;
-  double end_layer = 1; // mean sphere radii
+  double end_layer = 1;          // mean sphere radii
+  double end_height = not_given; // m, of ends that are not flat
+  dem::FacedEnds end_faces = dem::FacedEnds::top;
   bool seat = false;
   bool net_section = false;
   dem::Notch notch;              // of a bar that is bent

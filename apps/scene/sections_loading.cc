@@ -182,12 +182,15 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
   Members yielding(behind, platens.machine);
   yielding("mass", "Machine mass");
   yielding("damping", "Machine damping");
-  of.rest({"spherical_seat"});
+  of.rest({"spherical_seat", "eccentricity", "tilt"});
   Section top(parameters, "Platens/Top"), bottom(parameters, "Platens/Bottom");
   declare_side(top, platens, coupling::Side::top);
   Members control(top, loading);
   control("servo", "Control");
-  Members(top, static_cast<coupling::PlatenSettings &>(platens))("spherical_seat", "Seat");
+  Members obliquely(top, static_cast<coupling::PlatenSettings &>(platens));
+  obliquely("spherical_seat", "Seat");
+  obliquely("eccentricity");
+  obliquely("tilt");
   control("top_stress", "Stress").unless("Platens/Top/Control", {"motion"}).remark("Control = stress");
   declare_own_layers(top, coupling::Side::top, platens.top_layers);
   declare_side(bottom, platens, coupling::Side::bottom);

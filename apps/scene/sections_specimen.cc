@@ -48,10 +48,29 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
   section
       .entry<dem::EndPreparation>(
           "Ends", specimen.ends,
-          {{"as packed", dem::EndPreparation::as_packed}, {"ground", dem::EndPreparation::ground}},
+          {{"as packed", dem::EndPreparation::as_packed},
+           {"ground", dem::EndPreparation::ground},
+           {"convex", dem::EndPreparation::convex},
+           {"concave", dem::EndPreparation::concave},
+           {"not parallel", dem::EndPreparation::not_parallel},
+           {"rough", dem::EndPreparation::rough}},
           "As packed: the platens meet spheres where they are. Ground: spheres of the end layer are "
-          "seated flush, as if sawn.")
+          "seated flush, as if sawn. The others: ground to a face that is not flat, as high as End height "
+          "from its lowest point to its highest; not parallel: an inclined plane, highest at -x; rough: each "
+          "sphere by chance.")
       .member("ends");
+  const std::string flat = "Specimen/Ends";
+  section
+      .entry("End height", specimen.end_height, "m", above(0),
+             "Of an end face that is not flat, from its lowest point to its highest.")
+      .unless(flat, {"as packed", "ground"})
+      .member("end_height");
+  section
+      .entry<dem::FacedEnds>(
+          "End faces", specimen.end_faces,
+          {{"top", dem::FacedEnds::top}, {"bottom", dem::FacedEnds::bottom}, {"both", dem::FacedEnds::both}},
+          "Which ends are not flat; the other one is ground.")
+      .unless(flat, {"as packed", "ground"});
   section
       .number("End layer", specimen.end_layer, between(0.05, 10),
               "Depth of the ground layer in mean sphere radii; it decides the strength below 1.")

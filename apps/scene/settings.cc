@@ -64,6 +64,9 @@ coupling::PlatenTestSettings settings_without_files(const Scene &scene) {
   to.model = model_without_files(scene);
   to.ends = scene.specimen.ends;
   to.end_layer = scene.specimen.end_layer;
+  if (to.ends > coupling::Ends::ground) to.end_height = scene.specimen.end_height;
+  to.end_faces = scene.specimen.end_faces;
+  to.end_seed = scene.general.seed;
   to.seat = scene.specimen.seat;
   to.net_section = scene.specimen.net_section;
   to.platens = platen_settings(scene);

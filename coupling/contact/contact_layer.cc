@@ -139,7 +139,7 @@ void ContactLayer::seat(int particle, double offset) {
 }
 
 int ContactLayer::seat_within(const dem::Particles &particles, const fem::LoadedSurface &body, double depth,
-                              bool upright) {
+                              bool upright, const std::function<double(const Vector3 &)> &below) {
   std::vector<double> reach(particles.size());
   for (std::size_t i = 0; i < reach.size(); ++i)
     reach[i] = particles.radius[i] + depth;
@@ -151,7 +151,7 @@ int ContactLayer::seat_within(const dem::Particles &particles, const fem::Loaded
     const SurfacePoint meets = search_.closest(body.surface(), k, particles.position[i]);
     const double gap = meets.distance - particles.radius[i];
     if (gap > depth || (upright && std::abs(meets.normal.z) < 1 - aslant)) continue;
-    seat(near[k], gap);
+    seat(near[k], below ? gap - below(particles.position[i]) : gap);
     ++count;
   }
   search_.forget();

@@ -22,6 +22,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -87,11 +88,12 @@ public:
   ~ContactLayer();
 
   // Seats every particle whose surface lies within `depth` (m) of the body, each at its present gap, as if
-  // cut flush with the surface: that gap is then its zero. Returns the number. `upright`: only particles
-  // whose contact normal is along z. Only particles under the face of a strip are ground; a sphere next to
-  // its edge would be seated at an angle, and wedge.
+  // cut flush with the surface: that gap is then its zero. With `below` it is cut by so much (m) more at its
+  // centre, and meets a surface that has come closer by as much. Returns the number. `upright`: only
+  // particles whose contact normal is along z. Only particles under the face of a strip are ground; a sphere
+  // next to its edge would be seated at an angle, and wedge.
   int seat_within(const dem::Particles &particles, const fem::LoadedSurface &body, double depth,
-                  bool upright = false);
+                  bool upright = false, const std::function<double(const Vector3 &)> &below = {});
   int seats() const;
 
   // Once per step, after the drift: no particle has moved relative to the surface by more than `distance` (m)

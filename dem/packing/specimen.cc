@@ -3,16 +3,28 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
 
 #include "base/pi.h"
+#include "base/random.h"
 #include "base/shortest_text.h"
 #include "dem/packing/point_grid.h"
 
 namespace platen::dem {
 namespace {
+
+std::uint64_t hash_of(const Vector3 &place, std::uint64_t seed) {
+  for (const double x : {place.x, place.y, place.z}) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, &x, sizeof word);
+    word ^= seed;
+    seed = split_mix(word);
+  }
+  return seed;
+}
 
 // Centres closer than this fraction of the smaller radius give no usable direction of contact.
 constexpr double coincidence = 1e-9;
@@ -255,6 +267,27 @@ std::vector<std::string> check_specimen(const Specimen &specimen, double wall_to
   check_coincidence(specimen, problems);
   check_walls(specimen, wall_tolerance * mean_radius(specimen), problems);
   return problems.texts();
+}
+
+double depth_of_face(EndPreparation form, double height, const Shape &shape, const Vector3 &centre,
+                     std::uint64_t seed) {
+  const bool round = shape.kind == ShapeKind::cylinder;
+  const double half = round ? shape.radius : 0.5 * shape.width_x;
+  const double rim =
+      round ? half * half : 0.25 * (shape.width_x * shape.width_x + shape.width_y * shape.width_y);
+  const double outward = (centre.x * centre.x + centre.y * centre.y) / rim;
+  switch (form) {
+    case EndPreparation::convex:
+      return height * outward;
+    case EndPreparation::concave:
+      return height * (1 - outward);
+    case EndPreparation::not_parallel:
+      return height * 0.5 * (1 + centre.x / half);
+    case EndPreparation::rough:
+      return height * Random(hash_of(centre, seed)).uniform();
+    default:
+      return 0;
+  }
 }
 
 SpecimenEnds seat_ends(const Specimen &specimen, EndPreparation preparation, double end_layer) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -110,8 +111,24 @@ std::vector<std::string> check_specimen(const Specimen &specimen, double wall_to
 
 enum class EndPreparation {
   as_packed, // no change: a platen touches spheres where they are
-  ground     // as if sawn flat: all spheres near an end touch at once, each with its own zero gap
+  ground,    // as if sawn flat: all spheres near an end touch at once, each with its own zero gap
+  // as ground, but the face lies below its end plane (depth_of_face)
+  convex,
+  concave,
+  not_parallel,
+  rough
 };
+enum class FacedEnds { top, bottom, both }; // which of them are not flat
+inline bool are_ground(EndPreparation ends) {
+  return ends != EndPreparation::as_packed;
+}
+
+// m, by which the end face of a cylinder or box lies below its end plane at a sphere's x and y; `height`, m,
+// from the highest point of the face to the lowest. Convex and concave: of a sphere about the axis, at the
+// rim (the corners of a box) and on the axis. Not parallel: increasing with x. Rough: of each sphere at
+// random, uniform, from its place and `seed`. Ground and as packed: 0.
+double depth_of_face(EndPreparation form, double height, const Shape &shape, const Vector3 &centre,
+                     std::uint64_t seed = 0);
 
 // Spheres seated on one end plane, in order of their number.
 struct EndSeats {
@@ -124,7 +141,8 @@ struct SpecimenEnds {
   EndSeats bottom, top; // at z = 0 and z = height of the shape
 };
 
-// The seats of both ends. Ground: all spheres whose surface lies within end_layer mean radii of the plane, z
+// The seats of both ends. Unless as packed: all spheres whose surface lies within end_layer mean radii of the
+// plane, z
 // - R for the bottom, height - z - R for the top; the layer determines how many spheres carry the platen
 // (docs/glossary.md, End layer). As packed: none. A sphere may be seated on both ends.
 // Throws std::invalid_argument unless end_layer is finite and not negative.

@@ -34,15 +34,16 @@ TEST_F(Determinism, threads_change_no_byte) {
 }
 
 // The C library is told to take the code of an older processor: with Weibull's strengths, Hertz's contacts
-// and restitution, friction that falls with speed, a platen that turns and a sleeve (of 20 faces around, of
-// whose corners one has another last bit in either code).
+// and restitution, friction that falls with speed, a tilted platen that turns, a rough end and a sleeve (of
+// 20 faces around, of whose corners one has another last bit in either code).
 TEST_F(Determinism, the_baseline_gives_the_same_bytes_on_an_older_processor) {
   const std::pair<const char *, Words> runs[] = {
       {"scatter",
        {"Bond/Strength scatter = weibull", "Bond/Weibull modulus = 6", "Effects/Contact = hertz",
         "Material/Young modulus = 40 GPa", "Material/Poisson ratio = 0.2", "Contact/Restitution = 0.6",
         "Bond/Friction angle = 33.3 degree", "Platens/Friction law = velocity weakening",
-        "Platens/Slip velocity = 0.05 m/s", "Platens/Top/Seat = spherical"}},
+        "Platens/Slip velocity = 0.05 m/s", "Platens/Top/Seat = spherical", "Platens/Top/Tilt = 0.5 degree",
+        "Specimen/Ends = rough", "Specimen/End height = 0.1 mm"}},
       {"sleeve",
        {"Loading/Confinement = sleeve", "Loading/Confining pressure = 20 MPa",
         "Loading/Confining ramp = 0.1 ms", "Loading/Target strain = 0.004", "Sleeve/Thickness = 1 mm",

@@ -68,8 +68,9 @@ const std::vector<Stopped> stops{
     // In the hydrostatic stage, and after the peak; the platen turns the rim of the sleeve.
     {"seat_and_sleeve",
      "crushed.prm",
-     {"Platens/Top/Seat = spherical", "Loading/Confinement = sleeve", "Loading/Confining pressure = 20 MPa",
-      "Loading/Confining ramp = 0.1 ms", "Loading/Target strain = 0.02", "Sleeve/Thickness = 1 mm"},
+     {"Platens/Top/Seat = spherical", "Platens/Top/Eccentricity = 0.5 mm", "Loading/Confinement = sleeve",
+      "Loading/Confining pressure = 20 MPa", "Loading/Confining ramp = 0.1 ms",
+      "Loading/Target strain = 0.02", "Sleeve/Thickness = 1 mm"},
      {15, 110},
      500,
      {"sleeve.pvd"},

@@ -190,6 +190,26 @@ TEST(Faults, platens_that_yield_or_turn_move_with_inertia) {
       cylinder(), dem::cylinder(0.02, 0.04));
 }
 
+TEST(Faults, ends_and_loads_may_be_imperfect_where_that_means_something) {
+  const auto tilt = [](Settings &s) { s.platens.tilt = 0.01; };
+  const auto aside = [](Settings &s) { s.platens.spherical_seat = true, s.platens.eccentricity = 5e-3; };
+  const auto dome = [](Settings &s) { s.ends = Ends::convex, s.end_height = 1e-4; };
+  expect_faults(
+      {{"", "", tilt},
+       {"", "", aside},
+       {"", "", dome},
+       {"platens.eccentricity", "turns about the load", [](Settings &s) { s.platens.eccentricity = 5e-3; }},
+       {"platens.eccentricity", "beside the specimen",
+        [&](Settings &s) { aside(s), s.platens.eccentricity = -0.02; }},
+       {"platens.tilt", "is of a rigid platen", [&](Settings &s) { tilt(s), s.platens.elastic.emplace(); }},
+       {"platens.tilt", "what is glued fits", [&](Settings &s) { tilt(s), s.platens.glued = true; }},
+       {"platens.tilt", "square ends", [&](Settings &s) { tilt(s), s.loading.start_strain = 1e-3; }},
+       {"end_height", "is not set", [](Settings &s) { s.ends = Ends::rough; }},
+       {"ends", "what is glued fits", [&](Settings &s) { dome(s), s.platens.glued = true; }},
+       {"ends", "flat ends", [&](Settings &s) { dome(s), s.loading.start_strain = 1e-3; }}},
+      cylinder(), dem::cylinder(0.02, 0.04));
+}
+
 TEST(Faults, a_run_starts_strained_where_that_can_be_solved_for) {
   Settings sound = cylinder();
   sound.loading.start_strain = 1e-3;

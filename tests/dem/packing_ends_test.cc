@@ -55,6 +55,47 @@ TEST(SpecimenEnds, refuse_a_layer_that_is_none) {
   EXPECT_THROW(seat_ends(column(), EndPreparation::ground, std::nan("")), std::invalid_argument);
 }
 
+// Of a cylinder of radius 2 and of a box, whose rim are its corners.
+TEST(SpecimenEnds, have_faces_of_a_height_from_their_highest_point) {
+  const Shape round = cylinder(2, 5), square = box(6, 8, 5);
+  const auto depth = [](EndPreparation form, const Shape &shape, double x, double y) {
+    return depth_of_face(form, 0.1, shape, {x, y, 5});
+  };
+  EXPECT_EQ(depth(EndPreparation::ground, round, 1, 1), 0);
+  EXPECT_EQ(depth(EndPreparation::convex, round, 0, 0), 0);
+  EXPECT_NEAR(depth(EndPreparation::convex, round, 1, 0), 0.025, 1e-15);
+  EXPECT_NEAR(depth(EndPreparation::convex, round, 0, -2), 0.1, 1e-15);
+  EXPECT_NEAR(depth(EndPreparation::concave, round, 0, 0), 0.1, 1e-15);
+  EXPECT_NEAR(depth(EndPreparation::concave, round, 0, 2), 0, 1e-15);
+  EXPECT_NEAR(depth(EndPreparation::not_parallel, round, -2, 1), 0, 1e-15);
+  EXPECT_NEAR(depth(EndPreparation::not_parallel, round, 1, 1), 0.075, 1e-15);
+  EXPECT_NEAR(depth(EndPreparation::convex, square, 3, -4), 0.1, 1e-15);
+  EXPECT_NEAR(depth(EndPreparation::convex, square, 3, 0), 0.036, 1e-15);
+  EXPECT_NEAR(depth(EndPreparation::not_parallel, square, 3, 0), 0.1, 1e-15);
+}
+
+TEST(SpecimenEnds, are_rough_by_chance_by_place_and_seed) {
+  const Shape round = cylinder(2, 5);
+  double sum = 0, squares = 0;
+  constexpr int count = 10000;
+  for (int k = 0; k < count; ++k) {
+    const double depth = depth_of_face(EndPreparation::rough, 0.1, round, {1e-4 * k, 0, 5}, 3);
+    EXPECT_GE(depth, 0);
+    EXPECT_LT(depth, 0.1);
+    sum += depth, squares += depth * depth;
+  }
+  const double mean = sum / count;
+  EXPECT_NEAR(mean, 0.05, 4 * 0.1 / std::sqrt(12.0 * count));
+  EXPECT_NEAR(squares / count - mean * mean, 0.01 / 12, 1e-5);
+  const Vector3 place{0.5, 1, 5};
+  EXPECT_EQ(depth_of_face(EndPreparation::rough, 0.1, round, place, 3),
+            depth_of_face(EndPreparation::rough, 0.1, round, place, 3));
+  EXPECT_NE(depth_of_face(EndPreparation::rough, 0.1, round, place, 3),
+            depth_of_face(EndPreparation::rough, 0.1, round, place, 4));
+  EXPECT_NE(depth_of_face(EndPreparation::rough, 0.1, round, {0.5, 1, 4}, 3),
+            depth_of_face(EndPreparation::rough, 0.1, round, place, 3));
+}
+
 TEST(SpecimenCheck, finds_nothing_wrong_with_a_good_specimen) {
   EXPECT_TRUE(check_specimen(column()).empty());
 }
