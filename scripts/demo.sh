@@ -29,8 +29,8 @@ run() { # NAME COMMAND...: into results/demo/NAME
     worst=1
   fi
 }
-run dry "$apps"/platen-compress "$root/scenes/demo_dry.prm"
-run lubricated "$apps"/platen-compress "$root/scenes/demo_lubricated.prm"
+run dry "$apps"/platen-compress "$root/scenes/facet_dry.prm"
+run lubricated "$apps"/platen-compress "$root/scenes/facet_lubricated.prm"
 "$apps"/platen-report results/demo/lubricated
 "$apps"/platen-report results/demo/dry --compare results/demo/lubricated
 

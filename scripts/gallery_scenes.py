@@ -19,6 +19,7 @@ GROUPS = [
         Scene("demo_dry", COMPRESS, "cones"),
         Scene("demo_lubricated", COMPRESS, "outward_displacement"),
         Scene("facet_dry", COMPRESS, "cones"),
+        Scene("facet_lubricated", COMPRESS, "outward_displacement"),
         Scene("concrete_dry", COMPRESS, "outward_displacement"),
         Scene("concrete_lubricated", COMPRESS, "outward_displacement"),
         Scene("cube_dry", COMPRESS, "outward_displacement"),
