@@ -27,10 +27,6 @@ double platen_plane(const dem::Specimen &s, Side side, Ends ends) {
   return plane;
 }
 
-double half_width(const dem::Shape &shape) {
-  return shape.kind == dem::ShapeKind::box ? 0.5 * shape.width_x : shape.radius;
-}
-
 double depth_of_end(const dem::Shape &shape, const PlatenTestSettings &settings, Side side,
                     const Vector3 &centre) {
   if (axis_of(side) != 2) return 0;

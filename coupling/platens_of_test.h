@@ -21,7 +21,9 @@ double cells_of_platen(const dem::Shape &shape, const PlatenTestSettings &settin
 // Position of a platen's face at the start, along the axis of its side (m): with ends as packed it touches
 // the outermost sphere, with ground ends it lies in the end plane.
 double platen_plane(const dem::Specimen &specimen, Side side, Ends ends);
-double half_width(const dem::Shape &shape); // m, along x
+inline double half_width(const dem::Shape &shape) { // m, along x
+  return shape.kind == dem::ShapeKind::box ? 0.5 * shape.width_x : shape.radius;
+}
 // m, that a seated sphere at this place lies farther from the platen than its end plane: by the form of the
 // end face, and by the tilt of the top platen.
 double depth_of_end(const dem::Shape &shape, const PlatenTestSettings &settings, Side side,
