@@ -1,6 +1,5 @@
 #include "coupling/faults.h"
 
-
 #include <algorithm>
 #include <cmath>
 
@@ -139,7 +138,8 @@ private:
     const auto with = [&](bool broken, const std::string &why) {
       refuse_if(broken, "ends", why + " Allowed: ground.");
     };
-    refuse_if(!(s_.end_height > 0), "end_height", "is not set: ends that are not flat have one. Allowed: above 0 m.");
+    refuse_if(!(s_.end_height > 0), "end_height",
+              "is not set: ends that are not flat have one. Allowed: above 0 m.");
     with(p_.glued, "needs `platens.glued` = contact: what is glued fits.");
     with(p_.span > 0, "does not go with three point bending.");
     with(l_.start_strain > 0, "needs `loading.start_strain` = 0: the static solve is between flat ends.");
