@@ -92,6 +92,7 @@ OF_RUNS = [
     ("scene.prm", "All entries as used; running it again gives the same bytes."),
     ("history.csv", "A row a sample: strains, stresses, broken bonds, energies."),
     ("cracks.csv", "A row for each broken bond."),
+    ("crack_state.csv", "How wide each broken bond is at the end."),
     ("events.csv", "A row for each acoustic event."),
     ("summary.json", "Strength, moduli, damage, cones, pattern, costs; written last."),
     ("run.log", "What was told, with version, machine and threads."),

@@ -23,7 +23,8 @@ struct Names {
 constexpr std::array<Names, 5> output_names{{
     {"",
      "(scene|found)\\.prm|run\\.log|view\\.py|packings\\.sha256|(summary|study|plan)\\.json"
-     "|(history|cracks|events|bonds|bond_stress|directions|specimen|study|plan|costs|accuracy|comparisons"
+     "|(history|cracks|crack_state|events|bonds|bond_stress|directions|specimen|study|plan|costs|accuracy|"
+     "comparisons"
      "|envelope|trials|abacus|packing_([a-z0-9_.]+_)?[0-9]+)\\.csv"
      "|(specimen|cracks)\\.vtu|(specimen|bonds|platens|sleeve|contacts|fields)\\.pvd"},
     {"frames",

@@ -21,6 +21,7 @@ struct OutputPaths {
   std::filesystem::path history() const { return folder / "history.csv"; }
   std::filesystem::path cracks() const { return folder / "cracks.csv"; }
   std::filesystem::path cracks_vtu() const { return folder / "cracks.vtu"; }
+  std::filesystem::path crack_state() const { return folder / "crack_state.csv"; }
   std::filesystem::path events() const { return folder / "events.csv"; }
   std::filesystem::path summary() const { return folder / "summary.json"; }
   std::filesystem::path log() const { return folder / "run.log"; } // and the file that is locked

@@ -279,6 +279,7 @@ void list_figures(List &list) {
     list_dead_zones(list, last);
     list_pattern(list, last);
   }
+  list_crack_widths(list);
   list_emission(list);
 }
 

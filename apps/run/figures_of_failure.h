@@ -1,6 +1,8 @@
 // Figures (figures.h) of how a specimen failed: damage, dead zones, crack planes, acoustic emission.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
 
@@ -10,6 +12,7 @@
 #include "dem/measure/acoustic_emission.h"
 #include "dem/measure/cracks.h"
 #include "dem/measure/dead_zone.h"
+#include "dem/measure/openings.h"
 
 namespace platen::apps {
 
@@ -100,6 +103,29 @@ void list_pattern(List &list, bool last) {
   of_all("/largest/inclination_deg", "degree", [](auto &p) { return p.largest.inclination / degree; });
   of_all("/largest/flatness", "1", [](auto &p) { return p.largest.flatness; });
   of_all("/largest/extent_m", "m", [](auto &p) { return p.largest.extent; });
+  list.where(everywhere);
+}
+
+// How wide cracks are at the end, and what leads and flows through the specimen.
+template <class List>
+void list_crack_widths(List &list) {
+  const auto add = [&](const std::string &key, const char *unit, auto value) {
+    list.add("crack_widths/" + key, unit, [=](auto &t) { return value(*t.widths); });
+  };
+  list.add_object("crack_widths");
+  list.where([](auto &t) { return t.widths.has_value(); });
+  add("open", "1", [](auto &w) { return w.open; });
+  add("largest_m", "m", [](auto &w) { return w.largest; });
+  add("mean_m", "m", [](auto &w) { return w.mean; });
+  for (std::size_t k = 0; k < dem::crack_width_limits.size(); ++k)
+    add(fmt::format("share_above_{:.0f}_um", 1e6 * dem::crack_width_limits[k]), "1",
+        [=](auto &w) { return w.wider[k]; });
+  add("volume_m3", "m3", [](auto &w) { return w.volume; });
+  list.add("crack_widths/roughness", "1", [](auto &t) { return t.scene.output.crack_roughness; });
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    add(fmt::format("through_{}_m", "xyz"[axis]), "m", [=](auto &w) { return w.through[axis]; });
+    add(fmt::format("permeability_{}_m2", "xyz"[axis]), "m2", [=](auto &w) { return w.permeability[axis]; });
+  }
   list.where(everywhere);
 }
 

@@ -112,7 +112,8 @@ FrameFile spheres_of(const coupling::PlatenTest &problem, const std::vector<int>
                    });
 }
 
-FrameFile bonds_of(const coupling::PlatenTest &problem, const FrameHead &head) {
+FrameFile bonds_of(const coupling::PlatenTest &problem, const dem::LargestOpenings &largest,
+                   const FrameHead &head) {
   const dem::Particles &p = problem.model.particles;
   const dem::Bonds &b = *problem.model.bonds;
   const std::size_t n = b.initial_count();
@@ -148,6 +149,14 @@ FrameFile bonds_of(const coupling::PlatenTest &problem, const FrameHead &head) {
                             {"break_time", std::move(when)},
                             {"particle_a", std::move(first)},
                             {"particle_b", std::move(second)}};
+  if (problem.model.settings().crack_log) {
+    std::vector<double> opening(n, 0.0), slip(n, 0.0), widest(n, 0.0);
+    for (const dem::Opening &o : dem::openings(p, b))
+      opening[o.record] = o.opening, slip[o.record] = o.slip, widest[o.record] = largest.opening(o);
+    fields.push_back({"opening", std::move(opening)});
+    fields.push_back({"slip", std::move(slip)});
+    fields.push_back({"largest_opening", std::move(widest)});
+  }
   return head.file("bonds", [head, points = vectors(p.position), lines = std::move(lines),
                              fields = std::move(fields)](const auto &path) {
     write_lines(path, head.time, points, lines, {}, fields, head.values);
@@ -205,10 +214,11 @@ FrameFile contacts_of(const coupling::PlatenTest &problem, const FrameHead &head
 
 } // namespace
 
-Frame frame_of(const coupling::PlatenTest &problem, const std::vector<int> &moves_with, int number) {
+Frame frame_of(const coupling::PlatenTest &problem, const std::vector<int> &moves_with,
+               const dem::LargestOpenings &largest, int number) {
   const FrameHead head{problem.time(), number, values_of(problem)};
   Frame frame{head.time, {spheres_of(problem, moves_with, head)}};
-  if (problem.model.bonds) frame.files.push_back(bonds_of(problem, head));
+  if (problem.model.bonds) frame.files.push_back(bonds_of(problem, largest, head));
   add_boundaries(frame.files, problem, head);
   frame.files.push_back(contacts_of(problem, head));
   return frame;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "coupling/platen_test.h"
+#include "dem/measure/openings.h"
 
 namespace platen::apps {
 
@@ -23,8 +24,10 @@ struct Frame {
   std::vector<FrameFile> files;
 };
 
-// `moves_with` (Results::moves_with) is left out if it is empty. On several ranks all have the whole
+// `moves_with` (Results::moves_with) is left out if it is empty, and so are openings where the test keeps no
+// crack log. On several ranks all have the whole
 // specimen, and the first one writes.
-Frame frame_of(const coupling::PlatenTest &problem, const std::vector<int> &moves_with, int number);
+Frame frame_of(const coupling::PlatenTest &problem, const std::vector<int> &moves_with,
+               const dem::LargestOpenings &largest, int number);
 
 } // namespace platen::apps

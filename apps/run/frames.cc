@@ -44,7 +44,7 @@ void Frames::observe(const Moment &now) {
 void Frames::write() {
   if (test_.time() <= last_time_) return;
   if (!this_rank().is_silent()) {
-    Frame frame = frame_of(test_, results_.moves_with(test_), count_);
+    Frame frame = frame_of(test_, results_.moves_with(test_), results_.largest_openings(), count_);
     wait();
     writing_ = std::async(in_parallel_ ? std::launch::async : std::launch::deferred,
                           [this, frame = std::move(frame)] { store(frame); });

@@ -96,6 +96,7 @@ void Record::mark(FileMarks &marks) {
 void Record::finish() {
   if (test_.model.bonds) write_bond_stress();
   if (scene_.model.crack_log) write_events();
+  if (scene_.model.crack_log && test_.model.bonds) write_crack_state();
   if (!cracks_ || !scene_.output.fields) return;
   cracks_->sync();
   write_crack_discs(paths_.cracks(), test_.time(), paths_.cracks_vtu());
@@ -112,6 +113,27 @@ void Record::write_bond_stress() const {
        dem::bond_stress_by_direction(test_.model.particles, *test_.model.bonds, classes))
     table.row({c.low / degree, c.high / degree, c.bonds, c.pressed, c.mean, c.mean_pressed,
                axial != 0 ? c.mean_pressed / axial : not_measured});
+  table.finish();
+}
+
+// How wide each crack is as the run has left it, in the order of the bonds.
+void Record::write_crack_state() const {
+  const dem::Particles &p = test_.model.particles;
+  const dem::Bonds &b = *test_.model.bonds;
+  WholeTable table(paths_.crack_state(),
+                   {"particle_a", "particle_b", "mode", "time_s", "x_m", "y_m", "z_m", "nx", "ny", "nz",
+                    "jump_x_m", "jump_y_m", "jump_z_m", "area_m2", "opening_m", "slip_m", "largest_opening_m",
+                    "largest_slip_m", "moved"});
+  for (const dem::Opening &o : dem::openings(p, b)) {
+    const auto i = static_cast<std::size_t>(b.record_first[o.record]),
+               j = static_cast<std::size_t>(b.record_second[o.record]);
+    const double radius = test_.model.settings().bond_layout.bond_radius(p.radius[i], p.radius[j]);
+    const bool tension = b.state[o.record] == static_cast<int>(dem::BondState::broken_in_tension);
+    table.row({p.id[i], p.id[j], tension ? "tension" : "shear", b.break_time[o.record], o.place.x, o.place.y,
+               o.place.z, o.normal.x, o.normal.y, o.normal.z, o.jump.x, o.jump.y, o.jump.z,
+               pi * radius * radius, o.opening, o.slip, results_.largest_openings().opening(o),
+               results_.largest_openings().slip(o), p.id[o.second_moves ? j : i]});
+  }
   table.finish();
 }
 

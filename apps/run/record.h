@@ -40,6 +40,7 @@ private:
   void write_cracks();
   void write_bond_stress() const;
   void write_events() const;
+  void write_crack_state() const;
 
   const Scene &scene_;
   coupling::PlatenTest &test_;

@@ -80,6 +80,8 @@ bool Results::falls_with(const Sample &sample) const {
 
 bool Results::add(const Sample &sample, const coupling::PlatenTest &problem) {
   const bool falls = falls_with(sample);
+  if (problem.model.bonds && problem.model.settings().crack_log)
+    largest_openings_.follow(problem.model.particles, *problem.model.bonds);
   samples_.push_back(sample);
   counts_.push_back(counts(sample, loaded_on_));
   if (!counts_.back()) return false;
@@ -332,12 +334,13 @@ void Pattern::describe(Archive &archive) {
 }
 
 void Results::describe(Archive &archive) {
-  const bool before_motion = archive.version(2) < 2; // such a state has no cones by displacement
+  const auto version = archive.version(3);
   archive("barrel", barrel_, "1", or_nan());
   archive("peak", peak_, "Pa");
   archive("measured_for", measured_for_, "Pa");
   archive.part("at_eighty", at_eighty_);
-  if (!before_motion) archive.part("state_at_peak", state_at_peak_);
+  if (version > 1) archive.part("state_at_peak", state_at_peak_);       // else no cones by displacement
+  if (version > 2) archive.part("largest_openings", largest_openings_); // else from here on
   archive("crack_rose", emission_.rose.area, "m2");
   dem::describe(archive, "crack_pulses", emission_.pulses);
   apps::describe(archive, "samples", samples_);

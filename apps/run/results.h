@@ -10,6 +10,7 @@
 #include "dem/measure/acoustic_emission.h"
 #include "dem/measure/cracks.h"
 #include "dem/measure/failure_pattern.h"
+#include "dem/measure/openings.h"
 
 namespace platen::apps {
 
@@ -95,6 +96,8 @@ public:
   // Of each sphere the platen that it has moved with since the peak: 1 bottom, 2 top, 0 neither; all 0 until
   // the stress has fallen to 0.8 of the peak. Empty where the test has no failure pattern.
   std::vector<int> moves_with(const coupling::PlatenTest &problem) const;
+  // Of each broken bond, in the samples so far; followed where the test has a crack log.
+  const dem::LargestOpenings &largest_openings() const { return largest_openings_; }
 
   // Did the deviator reach its peak while the specimen was loaded on, or only its largest value?
   PeakOfCurve peak() const;
@@ -175,6 +178,7 @@ private:
   int axis_;
   bool follows_motion_;
   StateAtPeak state_at_peak_;
+  dem::LargestOpenings largest_openings_;
   std::vector<Sample> samples_;
   LoadedOn loaded_on_;
   std::vector<char> counts_; // of each sample

@@ -12,14 +12,19 @@ namespace {
 constexpr const char *test_part = "test", *results_part = "results", *marks_part = "files";
 constexpr const char *instruction_set_block = "test/specimen/instruction_set";
 
-// Places at the peak are those of all spheres, or not kept yet; stages are those that the test has.
+// Places at the peak are those of all spheres, openings those of all bonds, or not kept yet; stages are those
+// that the test has.
 void require_fitting_results(const StateSource &from, const coupling::PlatenTest &problem) {
-  const std::string places = "results/state_at_peak/position", stages = "results/samples/stage";
-  const std::size_t spheres = problem.model.particles.size();
-  if (const std::optional<StoredBlock> block = from.find(places);
-      block && block->rows != 0 && block->rows != spheres)
-    throw StateError("\"" + places + "\" has " + std::to_string(block->rows) + " rows, 0 or " +
-                     std::to_string(spheres) + " are needed");
+  const std::string stages = "results/samples/stage";
+  const std::size_t spheres = problem.model.particles.size(),
+                    bonds = problem.model.bonds ? problem.model.bonds->initial_count() : 0;
+  for (const auto &[name, rows] : {std::pair("results/state_at_peak/position", spheres),
+                                   std::pair("results/largest_openings/opening", bonds),
+                                   std::pair("results/largest_openings/slip", bonds)})
+    if (const std::optional<StoredBlock> block = from.find(name);
+        block && block->rows != 0 && block->rows != rows)
+      throw StateError(std::string("\"") + name + "\" has " + std::to_string(block->rows) + " rows, 0 or " +
+                       std::to_string(rows) + " are needed");
   if (problem.settings().loading.stages.empty() || !from.find(stages)) return;
   const std::vector<double> numbers = rows_of<double>(from, stages);
   const std::size_t count = problem.program().stage_count();

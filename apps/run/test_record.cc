@@ -36,6 +36,9 @@ TestRecord::TestRecord(const Scene &of, const coupling::PlatenTest &test, const 
       path(pressure_path(test, record)),
       tiling(tiling_of(of, test.shape())),
       fragments(dem::find_fragments(model.particles, model.bonds.get())) {
+  if (model.bonds && model.settings().crack_log)
+    widths = dem::crack_widths(dem::openings(model.particles, *model.bonds), model.particles, *model.bonds,
+                               model.settings().bond_layout, test.shape(), scene.output.crack_roughness);
   if (is_disc() && model.bonds) split = dem::split_pattern(model.particles, *model.bonds, test.shape());
 }
 

@@ -52,6 +52,7 @@ struct TestRecord {
   PressurePath path;
   Tiling tiling;
   dem::Fragments fragments;
+  std::optional<dem::CrackWidths> widths; // of a test with bonds and a crack log
   std::optional<dem::SplitPattern> split; // of a disc with bonds
 
   bool is_disc() const { return problem.shape().kind == dem::ShapeKind::disc; }

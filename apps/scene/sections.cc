@@ -55,6 +55,8 @@ void declare_output(Parameters &parameters, Output &output, Checkpoint &checkpoi
   section.number("Sound share", output.sound_share, between(0.01, 1),
                  "Share of its bonds that a sphere of an intact piece has kept: two pieces from platen to "
                  "platen are splitting.");
+  section.number("Crack roughness", output.crack_roughness, above_up_to(0, 1),
+                 "What a crack lets through over one of its width with smooth walls, for permeabilities.");
   section.number(
       "Event reach", output.event_reach, between(0.1, 1000),
       "Cracks this near are of one acoustic event, in mean sphere radii; larger joins more of them.");

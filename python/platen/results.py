@@ -177,7 +177,7 @@ class Run:
     run.specimen[-1].point_data["damage"], run.bonds.at(run.peak_time), run.platens, run.contacts, run.sleeve
     """
 
-    _tables = {"history": "history.csv", "cracks": "cracks.csv", "events": "events.csv", "bond_stress": "bond_stress.csv",
+    _tables = {"history": "history.csv", "cracks": "cracks.csv", "crack_state": "crack_state.csv", "events": "events.csv", "bond_stress": "bond_stress.csv",
                "spheres": "specimen.csv"}
     _series = ("specimen", "bonds", "platens", "contacts", "sleeve")
 

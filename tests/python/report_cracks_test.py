@@ -44,7 +44,25 @@ class Density(unittest.TestCase):
         self.assertTrue(math.isnan(found.values[16, -1]))
 
 
+class Widths(unittest.TestCase):
+    def test_shares_are_of_the_area_of_all_cracks_also_of_those_that_no_bin_has(self):
+        opening = numpy.array([-1e-6, 2e-8, 3e-6, 4e-6, 2e-4])
+        shares = cracks.shares_of_widths(opening, numpy.array([1, 1, 2, 3, 3]) * 1e-6, [1e-7, 1e-6, 1e-5, 1e-4, 1e-3])
+        numpy.testing.assert_allclose(shares, [0, 0.5, 0, 0.3])
+
+
 class OfARun(InRun):
+    def test_widths_are_drawn_where_a_crack_is_open_with_the_share_beyond_each_limit(self):
+        self.assertNotIn("crack_widths", [p.name for p in cracks.pictures_of_cracks(TestRun(self.path))])
+        state = self.path / "crack_state.csv"
+        state.write_text("opening_m,area_m2\n-1e-5,1e-6\n6e-5,2e-6\n1.5e-4,3e-6\n9e-4,4e-6\n")
+        picture = {p.name: p for p in cracks.pictures_of_cracks(TestRun(self.path))}["crack_widths"]
+        self.assertIn("not drawn: 10 %", picture.caption)
+        axes = house.figure_of(picture).axes[0]
+        self.assertEqual([text.get_text() for text in axes.texts], [" 90 %", " 70 %", " 40 %"])
+        state.write_text("opening_m,area_m2\n-1e-5,1e-6\n")
+        self.assertNotIn("crack_widths", [p.name for p in cracks.pictures_of_cracks(TestRun(self.path))])
+
     def setUp(self):
         super().setUp()
         self.rows = list(made_up_run.cracks(self.spheres))

@@ -6,11 +6,13 @@ import numpy
 from matplotlib.colors import Normalize, to_rgb
 
 from ..errors import InputError
-from .house import BLUE, MM, SKY, VERMILION, VIRIDIS, Picture, bars, chart, colour_bar, legend_above
+from .house import BLUE, MM, SKY, VERMILION, VIRIDIS, Picture, bars, chart, colour_bar, legend_above, titled
 from .run import rows_of
 from .spheres import DAMAGE, Scene, panels
 
 FEWEST = 5  # bonds of a cell with a share
+WIDTHS = 50e-6, 100e-6, 200e-6  # m, that structures are designed for
+NARROWEST = 1e-7  # m, of openings that are drawn
 
 
 class Cracks(namedtuple("Cracks", "place normal area tension time")):
@@ -143,6 +145,25 @@ def rose(axes, run):
     legend_above(axes)
 
 
+def shares_of_widths(opening, area, edges_of_bins):
+    """Shares of the area of all cracks in bins of opening (m); what is narrower or wider than all bins is in none."""
+    return numpy.histogram(opening, edges_of_bins, weights=area)[0] / area.sum()
+
+
+def widths(axes, run):
+    """Shares of the area of broken bonds by their opening at the end, eight bins a decade."""
+    opening, area = (run.table("crack_state")[name] for name in ("opening_m", "area_m2"))
+    low, high = numpy.log10(NARROWEST), numpy.ceil(numpy.log10(opening.max()))
+    bins = numpy.logspace(low, high, int(8 * (high - low)) + 1)
+    axes.stairs(100 * shares_of_widths(opening, area, bins), bins * 1e6, fill=True, color=BLUE, alpha=0.8)
+    axes.set_xscale("log")
+    for limit in WIDTHS:
+        wider = 100 * area[opening > limit].sum() / area.sum()
+        axes.axvline(limit * 1e6, color=VERMILION, linewidth=1)
+        axes.annotate(f" {wider:.0f} %", (limit * 1e6, 1), xycoords=("data", "axes fraction"), va="top", fontsize=7, color=VERMILION)
+    titled(axes, "Opening of the crack (µm)", "Area of broken\nbonds (%)")
+
+
 def pictures_of_cracks(run):
     """The Pictures of the section "Cracks" that the files of a run allow."""
     if run.table("cracks") is None or not run.series("specimen"):
@@ -166,4 +187,10 @@ def pictures_of_cracks(run):
             f"more cracks than in random directions. At 90 degrees a crack {_ways(run)[1].replace('along', 'along the axis')}. A bar that "
             "ends in the blue band (two standard deviations) may differ from the line by chance.", rose, run=run,
             heights=3, margin=2.05, titles=True))
+    state = run.table("crack_state")
+    if state is not None and (state["opening_m"] > NARROWEST).any():
+        closed = 100 * state["area_m2"][state["opening_m"] <= NARROWEST].sum() / state["area_m2"].sum()
+        pictures.append(chart("crack_widths", "Widths of the cracks at the end of the run: area of broken bonds by their opening. Beside the lines, "
+                              f"at 50, 100 and 200 µm: the share that is wider. Pressed together, or below .1 µm, and not drawn: {closed:.0f} %. Of parts that are "
+                              "crushed, openings are distances in a heap.", widths, run=run, heights=2.6, margin=0.9))
     return pictures
