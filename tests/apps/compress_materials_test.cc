@@ -141,5 +141,41 @@ TEST_F(Interfaces, the_area_factor_scales_the_modulus) {
   EXPECT_NEAR(by_packing["youngs_modulus_gauge_pa"].get<double>() / one, factor, 0.03 * factor);
 }
 
+// All stresses of a facet concrete times `strength`, all moduli times `stiffness`, its fracture energy times
+// the square of the one over the other: the same test at strains of `strength` over `stiffness`
+// (docs/theory.md, facet bonds).
+Words facets(double stiffness, double strength) {
+  const auto times = [](double value, double factor, const char *unit) {
+    return std::to_string(value * factor) + " " + unit;
+  };
+  const auto limit = [&](double value) { return times(value, strength, "MPa"); };
+  return {"Effects/Bond = facet",
+          "Bond/Gap = 0.6 R_min",
+          "Bond/Stiffness ratio = 0.36",
+          "Bond/Modulus = " + times(24, stiffness, "GPa"),
+          "Bond/Tensile strength = " + limit(3.15),
+          "Bond/Shear strength = " + limit(6),
+          "Bond/Fracture energy = " + times(15.5, strength * strength / stiffness, "J/m2"),
+          "Bond/Transitional stress = " + limit(50),
+          "Bond/Friction static = 0.42",
+          "Bond/Friction dynamic = 0.6",
+          "Bond/Compression limits = " + limit(29) + ", " + limit(65) + ", " + limit(216),
+          "Bond/Compression slopes = 3, 12, 20",
+          "Bond/Moment stiffness = 0.003",
+          "Loading/Axial rate = " + times(0.3, strength / std::sqrt(stiffness), "m/s"),
+          "Loading/Target strain = " + std::to_string(0.01 * strength / stiffness),
+          "Output/Every = 0"};
+}
+
+TEST_F(EffectsOff, facets_of_other_strengths_and_moduli_are_alike) {
+  const nlohmann::json one = crush("one", facets(1, 1)), other = crush("other", facets(1.5, 1.8));
+  const auto over = [&](const char *key) { return other[key].get<double>() / one[key].get<double>(); };
+  EXPECT_NEAR(over("strength_pa"), 1.8, 0.01 * 1.8);
+  EXPECT_NEAR(over("youngs_modulus_gauge_pa"), 1.5, 0.01 * 1.5);
+  EXPECT_NEAR(over("strain_at_peak_platen"), 1.8 / 1.5, 0.03 * 1.8 / 1.5);
+  EXPECT_NEAR(over("broken_tension"), 1,
+              0.15); // once it has failed, by what is large against its strains too
+}
+
 } // namespace
 } // namespace platen::apps::testing
