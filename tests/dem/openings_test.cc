@@ -149,6 +149,51 @@ TEST_F(OpenedLattice, the_widest_way_is_as_wide_as_its_narrowest_facet) {
   EXPECT_NEAR(w.through[0] / width, 0.5, 1e-9); // now by the lower plane
 }
 
+// A plane that ends in the middle leads along itself alone; one across the way lets nothing through it.
+TEST_F(OpenedLattice, facets_let_through_along_themselves_and_from_face_to_face) {
+  part(4, {0, 0, width});
+  const double whole = widths().permeability[0];
+  Particles &p = model_.particles;
+  Bonds &b = *model_.bonds;
+  const double middle = -nx * radius + 4 * radius; // between the second and the third row
+  for (std::size_t k = 0; k < b.initial_count(); ++k) {
+    const auto i = static_cast<std::size_t>(b.record_first[k]),
+               j = static_cast<std::size_t>(b.record_second[k]);
+    if (is_above(i, 4) && is_above(j, 4) &&
+        (p.reference_position[i].x < middle) != (p.reference_position[j].x < middle))
+      b.state[k] = static_cast<int>(BondState::broken_in_tension);
+  }
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (is_above(i, 4) && p.reference_position[i].x > middle) p.position[i].x += width;
+  const CrackWidths branched = widths();
+  EXPECT_EQ(branched.open, nx * ny + ny * (nz - 4));
+  EXPECT_NEAR(branched.permeability[0] / whole, 1, 1e-9);
+  EXPECT_NEAR(branched.permeability[1] / whole, 1 + (nz - 4.) / nx, 1e-9);
+  EXPECT_TRUE(std::isnan(branched.through[2])); // from the middle to the top
+  for (std::size_t k = 0; k < b.initial_count(); ++k)
+    if (reference_midpoint(p, b, k).x > middle) b.state[k] = static_cast<int>(BondState::intact);
+  const CrackWidths half = widths();
+  EXPECT_TRUE(std::isnan(half.through[0]));
+  EXPECT_EQ(half.permeability[0], 0);
+  EXPECT_NEAR(half.through[1] / width, 1, 1e-9);
+  EXPECT_NEAR(half.permeability[1] / whole, (2. + nz - 4) / nx, 1e-9);
+}
+
+// A sphere that turns alone by a small angle moves its face by the angle times its own radius.
+TEST(openings, unequal_spheres_meet_at_their_radii) {
+  constexpr double angle = 1e-6;
+  Model model(pair_of(radius, 3 * radius), bonded());
+  Particles &p = model.particles;
+  model.bonds->state[0] = static_cast<int>(BondState::broken_in_shear);
+  for (const std::size_t i : {0, 1}) {
+    (*p.orientation)[0] = (*p.orientation)[1] = Quaternion{};
+    (*p.orientation)[i] = rotation_quaternion({0, 0, angle});
+    const Opening o = opening_of(p, *model.bonds, 0);
+    EXPECT_NEAR(o.slip / (angle * p.radius[i]), 1, 1e-5);
+    EXPECT_NEAR(o.opening, 0, 2 * angle * angle * radius * 3);
+  }
+}
+
 TEST_F(OpenedLattice, the_largest_openings_are_kept) {
   LargestOpenings largest;
   const auto look = [&] {
