@@ -24,7 +24,7 @@ public:
     driving();
     if (p_.elastic) elastic();
     if (p_.machine.yields()) machine();
-    if (p_.spherical_seat) seat();
+    if (p_.spherical_seat || p_.seat_friction_arm != 0) seat();
     if (p_.eccentricity != 0 || p_.tilt != 0) oblique();
     if (s_.ends > Ends::ground) faces();
     if (presses_by_hertz(s_)) hertz();
@@ -103,6 +103,10 @@ private:
   }
 
   void seat() {
+    refuse_if(!p_.spherical_seat, "platens.seat_friction_arm",
+              "is of a platen on a seat. Allowed: 0, or `platens.spherical_seat` spherical.");
+    refuse_if(p_.seat_friction_arm > 0 && p_.elastic.has_value(), "platens.seat_friction_arm",
+              "is of a rigid platen. Allowed: 0, or rigid platens.");
     refuse_if(p_.span > 0, "platens.spherical_seat", "does not go with three point bending. Allowed: fixed.");
     refuse_if(!verlet(), "platens.spherical_seat",
               "needs `ModelSettings.scheme` = velocity verlet. Allowed: fixed.");

@@ -77,6 +77,8 @@ struct PlatenSettings {
   // The top platen (an elastic one: its clamp) turns freely about the middle of its face, moved by the
   // machine.
   bool spherical_seat = false;
+  double seat_friction_arm =
+      0;                   // m, the moment at which the seat begins to turn over the load; 0: it turns freely
   double eccentricity = 0; // m, along x, of the seat from the axis: the load acts there
   double tilt = 0; // rad, about y, of the top platen as it meets the specimen: lowest at -x if positive
   // m, between the edges of a platen and the planes of its neighbours, which may close by that much; 0: a
@@ -240,6 +242,9 @@ void PlatenSettings::describe(Visitor &&v, Self &p) {
   v("poisson_ratio", p.material.poisson_ratio, "1", between_open(-1, 0.5), "Poisson ratio of the platens.");
   v("glued", p.glued, Words<bool>{{"contact", false}, {"glued", true}},
     "Glued: the end grains are held by the platens, in tension too.");
+  v("seat_friction_arm", p.seat_friction_arm, "m", at_least(0),
+    "Of a rigid platen's spherical seat, the coefficient of friction of its ball times the radius: it sticks "
+    "until the load lies farther from its centre; 0: it turns freely.");
   v("eccentricity", p.eccentricity, "m", any_number(),
     "Along x, of the spherical seat from the axis: the middle of the load.");
   v("tilt", p.tilt, "rad", between(-0.1, 0.1),

@@ -302,8 +302,8 @@ PlatenOfTest new_platen(const dem::Specimen &s, const PlatenTestSettings &settin
     return PlatenOfTest{std::move(platen), elastic};
   };
   if (!p.elastic && p.spherical_seat && side == Side::top) {
-    auto body =
-        std::make_unique<fem::RigidBody>(platen_grid(s, settings, side), p.material, seat_of(s, settings));
+    auto body = std::make_unique<fem::RigidBody>(platen_grid(s, settings, side), p.material,
+                                                 seat_of(s, settings), p.seat_friction_arm);
     const SurfaceContact contact = contact_settings(model, s, settings, side, *body);
     return on_machine(std::make_unique<SeatedPlaten>(name_of(side), inward(side), std::move(body),
                                                      model.particles, contact));

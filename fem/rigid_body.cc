@@ -22,9 +22,11 @@ RigidBody::RigidBody(Grid grid, const Material &material) : grid_(std::move(grid
   find_inertia(volume_moments(grid_));
 }
 
-RigidBody::RigidBody(Grid grid, const Material &material, const Vector3 &seat)
+RigidBody::RigidBody(Grid grid, const Material &material, const Vector3 &seat, double friction_arm)
     : RigidBody(std::move(grid), material) {
+  require(friction_arm >= 0 && std::isfinite(friction_arm), "body: the arm of a seat's friction is below 0");
   turns_ = true;
+  friction_arm_ = friction_arm;
   pivot_ = seat;
   arm_ = mass() * (reference_centre_ - seat);
   add_about_origin(inertia_, mass(), reference_centre_ - seat);
@@ -86,11 +88,21 @@ void RigidBody::find_angular_velocity() {
 void RigidBody::kick(double dt) {
   if (!turns_) return;
   const Vector3 force = total_force(), turning = moment(centre()), before = angular_velocity_;
+  const double energy = turning_energy();
   spin_ = spin_ + dt * turning;
+  if (friction_arm_ > 0) hold_back(dt * friction_arm_ * norm(force));
   find_angular_velocity();
+  const double work = 0.5 * dt * dot(turning, before + angular_velocity_);
   clamp_work_ -= dt * dot(force, velocity_);
-  load_work_ += dt * (dot(force, velocity_) + 0.5 * dot(turning, before + angular_velocity_));
+  load_work_ += dt * dot(force, velocity_) + work;
+  if (friction_arm_ > 0) rubbed_ += work - (turning_energy() - energy);
   place_vertices();
+}
+
+// Takes angular momentum until the body rests: what is left of a step's moment is less than friction can
+// bear.
+void RigidBody::hold_back(double impulse) {
+  if (const double spin = norm(spin_); spin > 0) spin_ = std::max(0.0, 1 - impulse / spin) * spin_;
 }
 
 void RigidBody::drift(double dt) {
@@ -150,7 +162,7 @@ EnergyBalance RigidBody::energy_balance() const {
   EnergyBalance balance;
   if (!turns_) return balance;
   balance.kinetic = turning_energy();
-  balance.load_work = load_work_, balance.clamp_work = clamp_work_;
+  balance.load_work = load_work_, balance.clamp_work = clamp_work_, balance.rubbed = rubbed_;
   return balance;
 }
 
@@ -186,6 +198,7 @@ void RigidBody::describe(Archive &archive) {
     archive("angular_momentum", spin_, "kg m2/s");
     archive("load_work", load_work_, "J");
     archive("clamp_work", clamp_work_, "J");
+    if (friction_arm_ > 0) archive("seat_friction_work", rubbed_, "J");
   }
   describe_loads(archive);
   if (archive.reads()) place_vertices();

@@ -17,9 +17,11 @@ public:
   // Throws std::invalid_argument where a constant is out of range or a surface face has no area (naming the
   // face).
   RigidBody(Grid grid, const Material &material);
-  // On a spherical seat without friction (m, its centre at the start), which the machine moves: the body
-  // rotates about it under the moment of its loads.
-  RigidBody(Grid grid, const Material &material, const Vector3 &seat);
+  // On a spherical seat (m, its centre at the start), which the machine moves: the body rotates about it
+  // under the moment of its loads. Coulomb friction of the ball holds it back by a moment of at most the
+  // force of the loads times `friction_arm` (m), the coefficient of friction times the radius of the ball; 0:
+  // none.
+  RigidBody(Grid grid, const Material &material, const Vector3 &seat, double friction_arm = 0);
 
   const Material &material() const { return material_; }
   double volume() const { return volume_; }                            // m^3
@@ -63,6 +65,7 @@ private:
   void find_angular_velocity();
   void turn(double dt);
   void drift_on_seat(double dt);
+  void hold_back(double impulse); // N m s, by friction of the seat at most
 
   Grid grid_;
   Material material_;
@@ -71,6 +74,7 @@ private:
   double volume_ = 0;
   Vector3 reference_centre_{}; // m, of mass
   bool turns_ = false;
+  double friction_arm_ = 0;               // m
   Vector3 pivot_{};                       // m, centre of mass or seat at the start
   Matrix3 inertia_{}, inverse_inertia_{}; // kg m^2 about the pivot, reference axes; of a seat the inverse
   Vector3 arm_{};                         // kg m, first moment about the seat, reference axes
@@ -79,7 +83,7 @@ private:
   Vector3 spin_{}; // kg m^2/s, angular momentum about a seat at rest
   Quaternion rotation_;
   double last_move_ = 0;
-  double load_work_ = 0, clamp_work_ = 0; // J
+  double load_work_ = 0, clamp_work_ = 0, rubbed_ = 0; // J
 };
 
 } // namespace platen::fem

@@ -47,6 +47,7 @@ std::vector<Effect> effects(const Scene &s) {
       {touching && contact->dashpot() > 0, "contact dashpots", "Contact/Damping"},
       {s.platens.deformable, "elastic platens", "Platens/Kind"},
       {s.platens.spherical_seat, "spherical seat", "Platens/Top/Seat"},
+      {s.platens.seat_friction_arm > 0, "seat that sticks", "Platens/Top/Seat friction arm"},
       {s.platens.eccentricity != 0, "eccentric load", "Platens/Top/Eccentricity"},
       {s.platens.tilt != 0, "tilted platen", "Platens/Top/Tilt"},
       {s.specimen.ends > dem::EndPreparation::ground, "ends that are not flat", "Specimen/Ends"},

@@ -59,6 +59,7 @@ void SceneCheck::asked_of_program() const {
   };
   only(platens.sides != PlatenSides::two, "Platens/Sides", "two");
   only(platens.spherical_seat, "Platens/Top/Seat", "fixed");
+  only(platens.seat_friction_arm != 0, "Platens/Top/Seat friction arm", "0");
   only(platens.eccentricity != 0, "Platens/Top/Eccentricity", "0");
   only(platens.tilt != 0, "Platens/Top/Tilt", "0");
   only(loading.start_strain > 0, "Loading/Start strain", "0");

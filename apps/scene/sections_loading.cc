@@ -182,13 +182,14 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
   Members yielding(behind, platens.machine);
   yielding("mass", "Machine mass");
   yielding("damping", "Machine damping");
-  of.rest({"spherical_seat", "eccentricity", "tilt"});
+  of.rest({"spherical_seat", "seat_friction_arm", "eccentricity", "tilt"});
   Section top(parameters, "Platens/Top"), bottom(parameters, "Platens/Bottom");
   declare_side(top, platens, coupling::Side::top);
   Members control(top, loading);
   control("servo", "Control");
   Members obliquely(top, static_cast<coupling::PlatenSettings &>(platens));
   obliquely("spherical_seat", "Seat");
+  obliquely("seat_friction_arm");
   obliquely("eccentricity");
   obliquely("tilt");
   control("top_stress", "Stress").unless("Platens/Top/Control", {"motion"}).remark("Control = stress");

@@ -16,7 +16,7 @@ sys.path.insert(0, str(ROOT / "python"))
 import platen
 
 SEEDS = (1, 2, 3, 4, 5)
-SEAT = "Platens/Top/Seat = spherical"
+SEAT, ARM = "Platens/Top/Seat = spherical", "Platens/Top/Seat friction arm"
 NRMCA, ACI = "NRMCA publication 179", "ACI frequently asked question 828"
 
 
@@ -33,6 +33,8 @@ CASES = {
     "platen tilted by 0.5 degree": (["Platens/Top/Tilt = 0.5 degree"], "perfect", -8, f"ends not perpendicular, angle not stated, {NRMCA}"),
     "ends not parallel by 0.5 mm": (ends("not parallel", 0.5), "perfect", -8, f"ends not perpendicular, angle not stated, {NRMCA}"),
     "the same on a seat": (ends("not parallel", 0.5, SEAT), "on a seat", None, ""),
+    "the same, a seat of friction arm 1 mm": (ends("not parallel", 0.5, SEAT, f"{ARM} = 1 mm"), "on a seat", -8, f"angle not stated, {NRMCA}"),
+    "the same, 2 mm": (ends("not parallel", 0.5, SEAT, f"{ARM} = 2 mm"), "on a seat", -8, f"angle not stated, {NRMCA}"),
     "convex by 0.083 mm": (ends("convex", 0.083), "perfect", -25, f"0.25 mm of 150 mm, {ACI}; -12, height not stated, {NRMCA}"),
     "convex by 0.25 mm": (ends("convex", 0.25), "perfect", None, ""),
     "both ends convex by 0.25 mm": (ends("convex", 0.25, "Specimen/End faces = both"), "perfect", None, ""),

@@ -68,6 +68,44 @@ TEST(spherical_seat, an_oblique_end_is_pressed_evenly) {
   EXPECT_LT(arm[1], 0.2 * arm[0]);
 }
 
+// The ball of the seat sticks: the same cut turns the platen only while the load lies farther from the seat
+// than friction bears; an arm as long as the specimen is wide leaves it fixed.
+TEST(spherical_seat, friction_leaves_the_load_as_far_from_the_seat_as_its_arm) {
+  dem::Specimen oblique = cylinder();
+  const double radius = oblique.shape.radius;
+  for (Vector3 &c : oblique.centre)
+    c.z += 0.01 * c.x * c.z / oblique.shape.height;
+  double stress[2];
+  for (const double share : {0.05, 2.0}) {
+    PlatenTestSettings settings = seated(false);
+    settings.platens.spherical_seat = true;
+    settings.platens.seat_friction_arm = share * radius;
+    settings.ends = Ends::as_packed;
+    settings.loading.rate = 0.1;
+    PlatenTest problem(oblique, settings);
+    while (problem.closure_strain() < 0.01)
+      advance_to(problem, problem.steps() + 50);
+    stress[share > 1] = problem.stress_top();
+    const double arm = arm_of_load(problem, 3000);
+    EXPECT_LT(residual(problem), 1e-3) << share;
+    const Vector3 turned = 2 * vector_part(problem.top().body().rotation());
+    EXPECT_EQ(norm(turned) < 1e-20, share > 1); // stuck, to the round-off of its first touch
+    if (share < 1) {
+      EXPECT_LT(arm, 1.5 * share * radius);
+      EXPECT_GT(arm, 0.5 * share * radius);
+    }
+  }
+  PlatenTestSettings fixed = seated(false);
+  fixed.platens.spherical_seat = false;
+  fixed.ends = Ends::as_packed;
+  fixed.loading.rate = 0.1;
+  PlatenTest problem(oblique, fixed);
+  while (problem.closure_strain() < 0.01)
+    advance_to(problem, problem.steps() + 50);
+  EXPECT_NEAR(stress[1] / problem.stress_top(), 1, 0.01); // at steps of other lengths
+  EXPECT_LT(stress[0], stress[1]); // the one that turns goes out of the way of the high side
+}
+
 // Few spheres bear, never evenly: an elastic platen that may not turn takes a moment from them, one on a seat
 // turns away until little is left.
 TEST(spherical_seat, takes_no_moment_of_elastic_platens) {

@@ -218,5 +218,63 @@ TEST(rigid_seat, tells_how_far_its_farthest_vertex_went) {
   EXPECT_EQ(body.last_move(), farthest);
 }
 
+// A load of F along z at the distance e from the seat bears F e on the ball, whose friction bears F times its
+// arm.
+TEST(rigid_seat, friction_holds_it_until_the_load_lies_farther_than_its_arm) {
+  constexpr double load = 2e3, dt = 1e-6; // N, s
+  const double e = a / 2;
+  for (const double arm : {1.001 * e, 0.999 * e, 0.4 * e, 0.0}) {
+    RigidBody body(make_grid(BoxPlate{{-a / 2, -b / 2, 0}, {a / 2, b / 2, c}, {2, 2, 1}}), steel, Vector3{},
+                   arm);
+    const auto press = [&] { // half on each corner of x = a/2
+      body.clear_loads();
+      for (const int v : lower_corners(body))
+        if (body.surface().vertices[static_cast<std::size_t>(v)].x > 0)
+          body.add_surface_force(v, {0, 0, 0.5 * load});
+    };
+    constexpr int steps = 50;
+    press();
+    for (int k = 0; k < steps; ++k) {
+      body.kick(0.5 * dt), body.drift(dt);
+      press();
+      body.kick(0.5 * dt);
+    }
+    const double expected = arm > e ? 0 : load * (e - arm) / inertia_y * steps * dt; // rad/s
+    EXPECT_NEAR(-body.angular_velocity().y, expected, 1e-3 * expected)
+        << arm; // the load comes nearer as it turns
+    const EnergyBalance energy = body.energy_balance();
+    EXPECT_NEAR(energy.kinetic + energy.rubbed - energy.load_work - energy.clamp_work, 0,
+                1e-12 * energy.kinetic);
+    const double turned = arm > e ? 0 : 0.5 * expected * steps * dt; // rad
+    EXPECT_NEAR(energy.rubbed, load * arm * turned, 2e-3 * load * arm * turned) << arm;
+    EXPECT_EQ(is_identity(body.rotation()), arm > e);
+  }
+}
+
+TEST(rigid_seat, friction_stops_a_turning_plate_and_takes_all_of_its_energy) {
+  constexpr double load = 2e3, dt = 1e-6, arm = 5e-3, speed = 3; // rad/s
+  RigidBody body(make_grid(BoxPlate{{-a / 2, -b / 2, 0}, {a / 2, b / 2, c}, {2, 2, 1}}), steel, Vector3{},
+                 arm);
+  body.set_velocity({}, {0, 0, speed}); // about the axis of the load: nothing else turns it
+  const double whole = 0.5 * inertia_z * speed * speed;
+  EXPECT_NEAR(body.energy_balance().kinetic / whole, 1, 1e-12);
+  const auto press = [&] {
+    body.clear_loads();
+    for (const int v : lower_corners(body))
+      body.add_surface_force(v, {0, 0, 0.25 * load});
+  };
+  press();
+  const double until = inertia_z * speed / (load * arm); // s
+  int steps = 0;
+  for (; norm(body.angular_velocity()) > 0 && steps < 10000; ++steps) {
+    body.kick(0.5 * dt), body.drift(dt);
+    press();
+    body.kick(0.5 * dt);
+  }
+  EXPECT_NEAR(steps * dt, until, 1.5 * dt);
+  EXPECT_NEAR(body.energy_balance().rubbed / whole, 1, 1e-9);
+  EXPECT_EQ(body.energy_balance().kinetic, 0);
+}
+
 } // namespace
 } // namespace platen::fem::rigid_seat_test
