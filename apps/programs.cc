@@ -37,7 +37,8 @@ Paths of_cells() {
           "Loading/Confining ramp", "Loading/Confinement area"};
 }
 Paths of_platens() {
-  return {"Specimen/Seat",
+  return {"Scene/Standard",
+          "Specimen/Seat",
           "Specimen/Section",
           "Specimen/Notch depth",
           "Specimen/Notch width",
@@ -61,7 +62,7 @@ Program pack() {
   p.reads = {"Scene",        "Specimen",  "Material/Density",    "Material/Density of",
              "Effects/Bond", "Phases/By", "Phases/Radius above", "Phases/File",
              "Expect"};
-  p.but = {"Scene/Quality",  "Specimen/Seat",        "Specimen/Section",
+  p.but = {"Scene/Quality",  "Scene/Standard",       "Specimen/Seat",       "Specimen/Section",
            "Specimen/Cache", "Specimen/Notch depth", "Specimen/Notch width"};
   return p;
 }
@@ -113,7 +114,7 @@ Program calibrate() {
   p.caches_packings = true;
   p.reads = shared();
   p.but = joined_lists({{"Effects/Energy ledger", "Platens/Machine stiffness", "Platens/Machine mass",
-                         "Platens/Machine damping"},
+                         "Platens/Machine damping", "Scene/Standard"},
                         of_whole_tests(),
                         of_runs()});
   return p;

@@ -73,6 +73,8 @@ std::vector<std::string> entries_of_trials(const Scene &scene, const SpecimenTes
   std::vector<std::string> entries{"Output/Fields = off", "Checkpoint/Every = 0"};
   if (!scene.bond.calibrated.figures.empty())
     entries.emplace_back("Bond/Calibrated figures ="); // what is calibrated now
+  if (scene.general.standard != "none")
+    entries.emplace_back("Scene/Standard = none"); // a trial has no report
   const bool usual = std::all_of(test.figures.begin(), test.figures.end(),
                                  [](const std::string &key) { return holds(usual_figures, key); });
   if (usual) entries.insert(entries.end(), {"Effects/Energy ledger = off", "Effects/Crack log = off"});

@@ -73,6 +73,7 @@ const char *app_of(const coupling::PlatenTest &problem) {
 
 Json summary_of_run(const std::string &status, const TestRecord &test) {
   Json summary = summary_head(test.scene, app_of(test.problem), status, effects_on(test.scene));
+  if (test.scene.general.standard != "none") summary["standard"] = test.scene.general.standard;
   Evaluation evaluation(test, summary);
   list_figures(evaluation);
   const Reasons reasons = reasons_against(test, evaluation.evaluated(), summary);

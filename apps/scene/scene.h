@@ -26,6 +26,7 @@ struct General { // section Scene
   std::string title;
   unsigned long seed = 1;
   Quality quality = Quality::custom;
+  std::string standard = "none"; // by which the test is reported (apps/scene/standards.h)
 };
 
 struct Output {

@@ -41,6 +41,7 @@ Faults check_scene(Scene &scene, const Parameters &parameters, const Program &pr
   check.asked_of_program();
   check.test();
   check.loading();
+  check.standard();
   if (program.check != nullptr) program.check(check);
   check.scale();
   check.notes();

@@ -26,6 +26,7 @@ public:
   void asked_of_program() const;
   void test() const; // by the rules of the library
   void scale() const;
+  void standard() const;
   void notes();
 
   // For what programs check of their own sections.

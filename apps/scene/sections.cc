@@ -2,6 +2,7 @@
 // sections. Defaults stand with the members.
 #include "apps/scene/sections.h"
 #include "apps/scene/members.h"
+#include "apps/scene/standards.h"
 
 namespace platen::apps {
 namespace {
@@ -21,6 +22,9 @@ void declare_general(Parameters &parameters, General &general) {
       "give it; custom: none. " +
           quality_documentation() +
           " Errors and costs: docs/accuracy.md. The size of the spheres stays the scene's.");
+  section.entry<std::string>("Standard", general.standard, words_of_standards(),
+                             "By which platen-report --standard reports the test, which has to be one of the "
+                             "standard's; nothing of the computation depends on it.");
 }
 
 void declare_integration(Parameters &parameters, coupling::TimeStepSettings &time_step,

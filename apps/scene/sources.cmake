@@ -30,6 +30,7 @@ set(PLATEN_SCENE_SOURCES
   scene/scene_bond.cc
   scene/scene_stages.cc
   scene/shipped.cc
+  scene/standards.cc
   scene/surfaces.cc
   scene/layers.cc
   scene/expect.cc

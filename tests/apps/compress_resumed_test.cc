@@ -91,8 +91,10 @@ TEST_F(LedOn, tests_of_every_kind_are_led_on_as_they_were) {
 // What is written how often changes no state: rows are those of the straight tests, and scene.prm is the
 // scene now. A run that was led on and stopped before its next checkpoint goes on to the new end.
 TEST_F(LedOn, output_title_and_expectations_may_change) {
-  const Words changed{"Loading/Target strain = 0.003", "Scene/Title = Led on", "Output/Every = 40",
-                      "Output/Fields every = 800",     "Checkpoint/Every = 0", "Expect/particles = 1 ... 2"};
+  const Words changed{"Loading/Target strain = 0.003", "Scene/Title = Led on",
+                      "Scene/Standard = ASTM C39",     "Output/Every = 40",
+                      "Output/Fields every = 800",     "Checkpoint/Every = 0",
+                      "Expect/particles = 1 ... 2"};
   crush("first", {"Loading/Target strain = 0.002"});
   fs::copy(folder_ / "first", folder_ / "led", fs::copy_options::recursive);
   crush("straight", changed, {}, 1); // there are more than two spheres
@@ -108,6 +110,7 @@ TEST_F(LedOn, output_title_and_expectations_may_change) {
     EXPECT_TRUE(std::equal(led.begin() + static_cast<long>(first.size()), led.end(),
                            straight.end() - static_cast<long>(led.size() - first.size())));
     EXPECT_EQ(summary_in(folder_ / "led")["scene"], "Led on");
+    EXPECT_EQ(summary_in(folder_ / "led")["standard"], "ASTM C39");
     EXPECT_EQ(summary_in(folder_ / "led")["steps"], summary_in(folder_ / "straight")["steps"]);
   }
   EXPECT_EQ(content_of(folder_ / "led/scene.prm"), content_of(folder_ / "straight/scene.prm"));

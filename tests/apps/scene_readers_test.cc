@@ -106,6 +106,14 @@ TEST_F(Readers, a_program_reads_nothing_that_it_does_not_print) {
   }
 }
 
+// A standard of discs would refuse the compressions that the targets lead to.
+TEST_F(Readers, trials_of_a_calibration_are_of_no_standard) {
+  const Outcome dry = print(
+      "platen-calibrate", {test_scene("crushed.prm"), "--dry-run", "-s",
+                           "Calibrate/Target 1 = strength_pa: 40 MPa", "-s", "Scene/Standard = EN 12390-6"});
+  EXPECT_EQ(dry.status, 0) << dry.error;
+}
+
 // A study is of runs of platen-compress, and asks its own section what they are.
 TEST_F(Readers, a_study_does_not_look_into_the_sections_of_others) {
   int files = 0;
