@@ -43,6 +43,8 @@ MORE = {
         "--laboratory draws a measured curve beside that of the run, with the differences in stiffness, strength and strain. The file is read "
         "as a laboratory writes it: any header that names stress or load and strain or displacement with their units, comma, semicolon or tab, "
         "decimal comma, %, per mille, kN and mm. --curve writes it as platen-calibrate reads it.",
+        "--standard writes the test report by the standard that Scene/Standard names, FOLDER/pictures/test_report.html, for one or two sheets "
+        "A4; what a simulation cannot know is left open by name.",
     ],
 }
 

@@ -7,7 +7,7 @@
     report.specimen.outward_displacement(axes, run, run.peak_time)
 
 Modules: curves, comparison, envelope (charts of runs), laboratory (measured curves), specimen, cracks, platens, fields (pictures),
-studies, precision, programs (pages of other results), house (how pictures are made), pages.
+standard (the test report by a standard), studies, precision, programs (pages of other results), house (how pictures are made), pages.
 """
 import importlib
 from pathlib import Path
@@ -15,14 +15,15 @@ from pathlib import Path
 from ..errors import InputError
 
 _MODULES = ("comparison", "cracks", "curves", "envelope", "fields", "house", "laboratory", "pages", "platens", "precision", "programs",
-            "specimen", "studies", "words")
+            "specimen", "standard", "studies", "words")
 
 
-def page(run, output=None, forms=(), compare=(), measured=None, write_fields=False, say=lambda *_: None):
+def page(run, output=None, forms=(), compare=(), measured=None, write_fields=False, say=lambda *_: None, by_standard=False):
     """Draws the page of a run, a study, a calibration or another program's results into `output` (FOLDER/pictures), from a
     folder or a platen.Run; forms: further files of each chart ("pdf", "svg"); measured: (file, columns) of a laboratory's curve;
-    write_fields: fields.write_fields too. Returns the path of report.html. InputError, OutputError."""
-    from . import comparison, fields, laboratory, pages, programs, studies
+    write_fields: fields.write_fields too; by_standard: instead the test report by Scene/Standard, test_report.html. Returns the path of
+    the page. InputError, OutputError."""
+    from . import comparison, fields, laboratory, pages, programs, standard, studies
     from .run import TestRun
 
     folder = Path(getattr(run, "folder", run))
@@ -31,9 +32,14 @@ def page(run, output=None, forms=(), compare=(), measured=None, write_fields=Fal
     of_study = (folder / "study.json").exists()
     made = studies.page_of(folder, *compare) if of_study else programs.page_of(folder)
     for option, what, asked in (("--compare", "runs and studies", compare and not of_study), ("--laboratory", "runs", measured),
-                                ("--fields", "runs", write_fields)):
+                                ("--fields", "runs", write_fields), ("--standard", "runs", by_standard)):
         if made is not None and asked:
             raise InputError(f"{option} is for {what}; {folder} holds none")
+    if by_standard:
+        for option, asked in (("--compare", compare), ("--laboratory", measured), ("--fields", write_fields)):
+            if asked:
+                raise InputError(f"--standard is the report of one run alone. Allowed: without {option}")
+        return pages.write(standard.page_of(folder), output or folder / "pictures", forms, say, "test_report.html")
     if made is None:
         tests = [TestRun(each) for each in (folder, *compare)]
         for test in tests:

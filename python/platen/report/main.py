@@ -30,6 +30,7 @@ OPTIONS = (
     ("--columns", {"metavar": "NAMES"}, "Columns of that file where its header does not name them: \"strain=A,stress=B\""),
     ("--curve", {"metavar": "FILE"}, "Write that curve as platen-calibrate reads it (Calibrate/Curve 1); draws nothing. FOLDER may be left "
      "out where the file has strains and stresses"),
+    ("--standard", FLAG, "Write test_report.html instead: the test report by the standard that Scene/Standard names, for two A4 sheets"),
     ("--fields", FLAG, "Also write stress, strain, displacement and damage of all frames on one grid: "
      "fields.pvd for ParaView, into FOLDER"),
     ("--state", FLAG, "List the content of the newest checkpoint (names, units, sizes, least and largest number); draws nothing"),
@@ -69,7 +70,7 @@ def _draw(options):
     measured, say = (options.laboratory, options.columns) if options.laboratory else None, (lambda *_: None) if options.quiet else print
     forms = [form for form in dict.fromkeys(forms) if form != "png"]
     try:
-        page(options.folder, options.output, forms, options.compare, measured, options.fields, say)
+        page(options.folder, options.output, forms, options.compare, measured, options.fields, say, options.standard)
     except ImportError as error:
         raise InputError(f"{error}. Pictures need Debian's package python3-matplotlib") from None
     sys.stdout.flush()

@@ -94,11 +94,11 @@ def _written(page, drawn):
             + "\n".join(body) + f"\n<script>{(HERE / 'page.js').read_text()}</script>\n</body>\n</html>\n").encode(errors="replace")
 
 
-def write(page, folder, forms=(), say=print):
-    """Draws the pictures of a page into folder (made where it is not there) and writes report.html there: first with its
+def write(page, folder, forms=(), say=print, file="report.html"):
+    """Draws the pictures of a page into folder (made where it is not there) and writes the page there as `file`: first with its
     charts and tables, then whole. Returns the path of the page. OutputError where a file cannot be written."""
     folder = Path(folder)
-    path, drawn, files = folder / "report.html", {}, {}
+    path, drawn, files = folder / file, {}, {}
     pictures = {picture.name: picture for section in page.sections for picture in section.pictures}
     charts, images = ({name: p for name, p in pictures.items() if p.raster == raster} for raster in (False, True))
     make = lambda what: house.save(what, folder, forms) if isinstance(what, house.Picture) else ([], what())  # noqa: E731

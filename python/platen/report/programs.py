@@ -10,7 +10,7 @@ import numpy
 from ..results import read_table
 from .house import BLACK, BLUE, CYCLE, GPA, GREY, MARKS, MM, MPA, PALE, VERMILION, bars, chart, digits, titled
 from .pages import Page, Section, Table
-from .run import Results, number_in, reading, table_with
+from .run import Results, number_in, reading, shape_of, table_with
 from .words import Spread, head, over_packings, true_title, with_unit, words_of_key
 
 COSTS = ("steps", "time_step_s", "threads", "wall_seconds", "setup_seconds", "particle_steps_per_second", "peak_memory_bytes")
@@ -91,10 +91,9 @@ def _pack(folder, summary, remarks):
         raise ValueError("no spheres, or one without a place or a radius")
     pictures = [chart("sizes", f"How large the {len(radius)} spheres are, and how many neighbours they have.",
                       partial(sizes, radius=radius), partial(coordination, position=position, radius=radius))]
-    shape = re.match(r"# shape: (cylinder|box) (.*)", (folder / "specimen.csv").read_text(encoding="utf-8"))
-    if shape:
-        of = {name: float(value) for name, value in re.findall(r"(\w+)=(\S+)", shape[2])}
-        area = math.pi * of["radius_m"] ** 2 if shape[1] == "cylinder" else of["width_x_m"] * of["width_y_m"]
+    shape, of = shape_of(folder)
+    if shape in ("cylinder", "box"):
+        area = math.pi * of["radius_m"] ** 2 if shape == "cylinder" else of["width_x_m"] * of["width_y_m"]
         slices = int(numpy.clip(round(of["height_m"] / radius.mean()), 8, 200))
         height, share = density_profile(position[:, 2], radius, of["height_m"], area, slices)
         pictures.append(chart("density", "Solid fraction of each slice, from the bottom to the top. At flat walls it is smaller, and it "

@@ -100,6 +100,14 @@ def table_with(path, *columns):
     return table
 
 
+def shape_of(folder):
+    """("cylinder", {"radius_m": 0.025, "height_m": 0.1}) by the first line of specimen.csv; ("", {}) where it does not say it."""
+    path = Path(folder) / "specimen.csv"
+    with reading(path):
+        found = re.match(r"# shape: (\w+) (.*)", path.read_text(encoding="utf-8")) if path.is_file() else None
+        return (found[1], {name: float(value) for name, value in re.findall(r"(\w+)=(\S+)", found[2])}) if found else ("", {})
+
+
 def point_data(grid, where, **widths):
     """Arrays of a vtu.Grid by name; widths: numbers a point. InputError, of the file `where`, for one that is not there so."""
     found = []

@@ -43,7 +43,7 @@ ENDS = ("Damage: share of the broken bonds, of an end and of the middle; spread:
         "the ends over that of the middle, at the peak.")
 ENDINGS = (("_kg_m3", "kg/m3"), ("_j_m2", "J/m2"), ("_pa", "Pa"), ("_m", "m"), ("_n", "N"), ("_s", "s"), ("_deg", "degrees"))
 # Sections whose entries change nothing of the specimen and its test.
-_ASIDE = ("Output/", "Checkpoint/", "Expect/", "Scene/Title")
+_ASIDE = ("Output/", "Checkpoint/", "Expect/", "Scene/Title", "Scene/Standard")
 # Main parameters of a bond law, as far as a scene has them.
 _BOND = ("Modulus", "Stiffness ratio", "Tensile strength", "Shear strength", "Friction angle", "Moment contribution", "Fracture energy",
          "Compression limits", "Compression slopes")
