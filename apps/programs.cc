@@ -83,7 +83,7 @@ Program bar() {
   Program p = bar_program();
   p.caches_packings = true;
   p.reads = joined_lists({shared(), {"Output/Every"}});
-  p.but = joined_lists({{"Specimen/Ends", "Specimen/End layer"}, of_platens(), of_runs()});
+  p.but = joined_lists({{"Specimen/Ends", "Specimen/End layer", "Specimen/Export"}, of_platens(), of_runs()});
   return p;
 }
 
@@ -94,6 +94,7 @@ Program compress() {
   p.presses = Presses::specimens;
   p.shares_packings = p.caches_packings = p.on_ranks = true;
   p.reads = shared();
+  p.but = {"Specimen/Export"};
   return p;
 }
 
@@ -104,7 +105,7 @@ Program brazilian() {
   p.presses = Presses::discs;
   p.shares_packings = p.caches_packings = p.on_ranks = true;
   p.reads = shared();
-  p.but = joined_lists({of_whole_tests(), of_cells()});
+  p.but = joined_lists({{"Specimen/Export"}, of_whole_tests(), of_cells()});
   return p;
 }
 
@@ -113,8 +114,8 @@ Program calibrate() {
   p.presses = Presses::trials;
   p.caches_packings = true;
   p.reads = shared();
-  p.but = joined_lists({{"Effects/Energy ledger", "Platens/Machine stiffness", "Platens/Machine mass",
-                         "Platens/Machine damping", "Scene/Standard"},
+  p.but = joined_lists({{"Specimen/Export", "Scene/Standard", "Effects/Energy ledger",
+                         "Platens/Machine stiffness", "Platens/Machine mass", "Platens/Machine damping"},
                         of_whole_tests(),
                         of_runs()});
   return p;
@@ -125,6 +126,7 @@ Program study() {
   p.presses = Presses::specimens;
   p.caches_packings = p.plans_runs = true;
   p.reads = shared();
+  p.but = {"Specimen/Export"};
   return p;
 }
 

@@ -107,7 +107,9 @@ OF_ALL = [("scene.prm", "All entries as used."), ("summary.json", "Results; writ
 
 FILES = {
     "platen": [],
-    "platen-pack": [("specimen.csv, specimen.vtu", "The spheres."), ("directions.csv", "Contacts by direction."), *OF_ALL],
+    "platen-pack": [("specimen.csv, specimen.vtu", "The spheres."),
+                    ("specimen.yade.txt, specimen.data, specimen.dump", "The same, where the scene asks for it."),
+                    ("directions.csv", "Contacts by direction."), *OF_ALL],
     "platen-bonds": [("bonds.csv", "Load paths."), *OF_ALL],
     "platen-bar": [("history.csv", "A row a sample of each load."), *OF_ALL],
     "platen-compress": OF_RUNS,

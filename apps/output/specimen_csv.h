@@ -13,4 +13,10 @@ void write_specimen_csv(const std::filesystem::path &path, const dem::Specimen &
 // The same to the end of an open file.
 void write_specimen_csv(OutputFile &to, const dem::Specimen &specimen);
 
+// The spheres as another program reads them, to the same bits: specimen.yade.txt, specimen.data or
+// specimen.dump in `folder`, with ids from 1 and the density of the grains (kg/m3) where the format has them.
+// Throws OutputError.
+void write_specimen_as(SpecimenFormat format, const std::filesystem::path &folder,
+                       const dem::Specimen &specimen, double grain_density);
+
 } // namespace platen::apps

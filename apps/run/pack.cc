@@ -136,6 +136,8 @@ int run_pack(const CommandLine &command, const Scene &scene) {
   output.open(scene.specimen.packing == PackingKind::random_close ? loop_threads() : 1);
   const OutputPaths &paths = output.paths;
   write_specimen_csv(paths.specimen_csv(), specimen);
+  for (const SpecimenFormat format : scene.specimen.exports)
+    write_specimen_as(format, paths.folder, specimen, judgement.grain_density);
   std::vector<int> id(specimen.size());
   std::iota(id.begin(), id.end(), 0);
   write_points(paths.specimen_vtu(), 0.0, specimen.centre, {{"radius", specimen.radius}, {"id", id}});

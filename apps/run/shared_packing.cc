@@ -28,9 +28,10 @@ constexpr const char *lock_name = "in_use";
 constexpr std::chrono::hours patience{1};
 
 // Of the specimen, but not of where its spheres are.
-constexpr std::array<const char *, 7> no_part_of_it{
-    "Specimen/File",  "Specimen/Ends",        "Specimen/End layer",  "Specimen/Seat",
-    "Specimen/Cache", "Specimen/Notch depth", "Specimen/Notch width"};
+constexpr std::array<const char *, 10> no_part_of_it{
+    "Specimen/File",        "Specimen/File format", "Specimen/File columns", "Specimen/Export",
+    "Specimen/Ends",        "Specimen/End layer",   "Specimen/Seat",         "Specimen/Cache",
+    "Specimen/Notch depth", "Specimen/Notch width"};
 
 // Of a file, what it holds.
 std::string recipe_text(const Entry &entry) {

@@ -66,10 +66,10 @@ void check_shape(const Scene &scene, const dem::Shape &found) {
 }
 
 dem::Specimen read_specimen(const Scene &scene) {
-  SpecimenFile file = read_specimen_csv(scene.specimen.file);
+  SpecimenFile file = read_specimen_file(scene.specimen.file, scene.specimen.form);
   if (file.states_shape) {
     check_shape(scene, file.specimen.shape);
-  } else {
+  } else if (!scene.specimen.form.filled) {
     file.specimen.shape = specimen_shape(scene);
     const dem::Shape &shape = file.specimen.shape;
     const bool whole =
@@ -77,7 +77,8 @@ dem::Specimen read_specimen(const Scene &scene) {
         (shape.kind == dem::ShapeKind::cylinder ? shape.radius > 0 : shape.width_x > 0 && shape.width_y > 0);
     if (!whole)
       refuse(scene, "Specimen/File",
-             "states no shape: the scene has to give Specimen/Height and Radius, or Width x and Width y.");
+             "states no shape: the scene has to give Specimen/Height and Radius, or Width x and Width y; or "
+             "none of them, for what the spheres reach.");
   }
   const std::vector<std::string> problems = dem::check_specimen(file.specimen, file_wall_tolerance, 4);
   if (problems.empty()) return std::move(file.specimen);

@@ -17,22 +17,40 @@
 namespace platen::apps {
 namespace {
 
+// What the spheres of a file without a shape fill, where the scene has no length of it either.
+std::optional<dem::ShapeKind> filled_by_spheres(const SpecimenSection &specimen, bool states_shape) {
+  for (const double length : {specimen.height, specimen.radius, specimen.width_x, specimen.width_y})
+    if (!std::isnan(length)) return std::nullopt;
+  const bool round = specimen.shape == SpecimenShape::cylinder || specimen.shape == SpecimenShape::disc;
+  return states_shape && round ? dem::ShapeKind::cylinder : dem::ShapeKind::box;
+}
+
 // The specimen of a file stands for the entries that the scene leaves out: lengths are in units of its mean
 // radius, its height and its width. A radius that the scene has for spheres of another size has no effect.
 // Throws EntryError for a file that cannot be read as one.
-void supply_specimen(SpecimenSection &to, const Parameters &parameters) {
+void supply_specimen(Scene &scene, Parameters &parameters) {
+  const char *const shape_entry = "Specimen/Shape";
   constexpr double same_radius = 0.1; // drawn radii have another mean than their distribution
+  SpecimenSection &to = scene.specimen;
+  const Entry &entry = parameters.at("Specimen/File");
   if (to.packing != PackingKind::file || !open_file(to.file)) return; // which the checks refuse
+  to.form.filled = filled_by_spheres(to, !parameters.at(shape_entry).origin.file.empty());
   SpecimenFile file;
   try {
-    file = read_specimen_csv(to.file);
+    file = read_specimen_file(to.file, to.form);
   } catch (const InputError &error) {
-    throw EntryError(error.what(), parameters.at("Specimen/File").origin, "Specimen/File");
+    throw EntryError(error.what(), entry.origin, entry.path);
   }
+  for (const std::string &note : file.notes)
+    scene.notes.push_back(entry.origin.text() + ": note: " + entry.path + " = " + entry.text + ", " + note +
+                          ".");
   const auto take = [](double &own, double found) { own = std::isnan(own) ? found : own; };
   const double radius = dem::mean_radius(file.specimen);
   if (!(std::abs(to.sphere_radius / radius - 1) <= same_radius)) to.sphere_radius = radius;
-  if (!file.states_shape) return;
+  if (!file.states_shape && !to.form.filled) return;
+  // Else the scene as it is written would ask for a cylinder.
+  if (!file.states_shape && *to.form.filled == dem::ShapeKind::box && to.shape == SpecimenShape::cylinder)
+    parameters.supply(shape_entry, "box");
   const dem::Shape &shape = file.specimen.shape;
   const bool disc = shape.kind == dem::ShapeKind::disc, box = shape.kind == dem::ShapeKind::box;
   take(to.height, disc ? shape.width_y : shape.height);
@@ -40,7 +58,7 @@ void supply_specimen(SpecimenSection &to, const Parameters &parameters) {
     take(to.width_x, shape.width_x), take(to.width_y, shape.width_y);
   else
     take(to.radius, shape.radius);
-  if (parameters.at("Specimen/Shape").changed()) return;
+  if (parameters.at(shape_entry).changed()) return;
   to.shape = box ? SpecimenShape::box : disc ? SpecimenShape::disc : SpecimenShape::cylinder;
 }
 
@@ -73,7 +91,7 @@ void inherit(Scene &scene, Parameters &parameters, const Program &program) {
     platens.face(which).mesh_file = resolved_path(parameters.at(section_of(which) + "/Mesh file"));
   }
   scene.specimen.file = resolved_path(parameters.at("Specimen/File"));
-  parameters.attempt([&] { supply_specimen(scene.specimen, parameters); });
+  parameters.attempt([&] { supply_specimen(scene, parameters); });
   parameters.attempt([&] { supply_layers(parameters, platens); });
   if (platens.thickness == 0 && !std::isnan(scene.specimen.height))
     platens.thickness = 0.1 * scene.specimen.height;

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/scene/quantities.h"
+#include "apps/scene/specimen_file.h"
 #include "dem/contacts.h"
 #include "dem/heterogeneity.h"
 #include "dem/packing/advancing_front.h"
@@ -29,8 +31,10 @@ struct SpecimenSection {
   double second_radius_ratio = 0.5; // two sizes: second radius over the first
   double second_fraction = 0.5;     // two sizes: share of the number of spheres that has the second radius
   PackingKind packing = PackingKind::advancing_front;
-  int tile_spheres = 0; // random close: laid out of tiles of so many; 0: grown as a whole
-  std::string file;     // Packing = file; resolved against the folder of the scene
+  int tile_spheres = 0;                // random close: laid out of tiles of so many; 0: grown as a whole
+  std::string file;                    // Packing = file; resolved against the folder of the scene
+  SpecimenForm form;                   // of that file
+  std::vector<SpecimenFormat> exports; // of a packing, besides specimen.csv
   dem::EndPreparation ends = dem::EndPreparation::as_packed;
   double end_layer = 1;          // mean sphere radii
   double end_height = not_given; // m, of ends that are not flat

@@ -1,9 +1,39 @@
 // The specimen, its grains, and which effects act between them.
+#include <stdexcept>
+
 #include "apps/scene/members.h"
 #include "apps/scene/sections.h"
+#include "apps/scene/specimen_formats.h"
 #include "dem/laws/normal_contact.h"
 
 namespace platen::apps {
+namespace {
+
+Words<SpecimenFormat> words_of_formats() {
+  Words<SpecimenFormat> words;
+  for (const SpecimenFormatRule &rule : specimen_formats())
+    words.insert(words.begin(), {rule.word, rule.format});
+  return words;
+}
+
+std::vector<std::string> names_of_exports() {
+  std::vector<std::string> names;
+  for (const auto &[word, format] : words_of_formats())
+    if (format != SpecimenFormat::columns) names.push_back(word);
+  return names;
+}
+
+std::vector<SpecimenFormat> read_exports(const std::string &text) {
+  const std::vector<std::string> names = names_of_exports();
+  return read_items<SpecimenFormat>(text, [&](const std::string &item) {
+    const std::string &name = names[read_word(item, names)];
+    for (const SpecimenFormatRule &rule : specimen_formats())
+      if (rule.word == name) return rule.format;
+    throw std::logic_error("a format without a rule");
+  });
+}
+
+} // namespace
 
 void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
   Section section(parameters, "Specimen");
@@ -44,7 +74,27 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
                "without seams, and grown on between the walls; 0 grows it as a whole. What is told of many "
                "tiles is known of one.")
       .only_if("Specimen/Packing", {"random close"});
-  section.file("File", specimen.file, "A specimen.csv to load.").only_if("Specimen/Packing", {"file"});
+  Section read = section.only_if("Specimen/Packing", {"file"});
+  read.file(
+      "File", specimen.file,
+      "Text that lists spheres: a specimen.csv, columns that a header names with their units, or what other "
+      "programs write.");
+  Words<SpecimenFormat> formats = words_of_formats();
+  formats.insert(formats.begin(), {"automatic", SpecimenFormat::automatic});
+  read.entry<SpecimenFormat>("File format", specimen.form.format, formats,
+                             "How File lists spheres. Columns: named by a header, x, y, z and radius or "
+                             "diameter, in m, cm, mm or um, "
+                             "others passed over. Yade: text export. LAMMPS: write_data of atom style "
+                             "sphere, dump custom with x y z "
+                             "radius, its last frame. Automatic: by its first lines.");
+  read.text("File columns", specimen.form.columns,
+            "Names of the columns of a File without a header, commas between them: \"id, x_mm, y_mm, z_mm, "
+            "diameter_mm\".");
+  section
+      .value("Export", specimen.exports, "", "with commas between them, any of " + joined(names_of_exports()),
+             read_exports,
+             "What a packing is written as too: specimen.yade.txt, specimen.data, specimen.dump.")
+      .only_if([](const Situation &s) { return !s.program.bonds; }, "only platen-pack writes them");
   section
       .entry<dem::EndPreparation>(
           "Ends", specimen.ends,

@@ -5,147 +5,108 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <sstream>
-#include <string>
-#include <string_view>
 
 #include "apps/output/numbers.h"
-#include "apps/scene/errors.h"
-#include "apps/scene/regular_file.h"
-#include "base/characters.h"
+#include "apps/scene/specimen_formats.h"
 
 namespace platen::apps {
 namespace {
 
-constexpr const char *columns[] = {"x_m", "y_m", "z_m", "radius_m"};
-constexpr std::size_t shown = 60; // characters of a faulty line, which may be anything
-
-// A file while it is read: knows where it is, for messages.
-struct Place {
-  std::string file;
-  std::size_t line = 0;
-  std::string_view text; // of that line, of which a character that nobody sees is named
-  [[noreturn]] void fail(const std::string &what) const {
-    const std::string odd = text_of_odd_character(text);
-    throw InputError(
-        fmt::format("{}:{}: error: {}{}", file, line, what, odd.empty() ? "" : "; the line holds " + odd));
-  }
-};
-
-// Calls take(line) for each line and keeps the place. Lines end with \n, \r\n or \r.
-template <class Take>
-void read_lines(const std::filesystem::path &path, Place &place, const Take &take) {
-  place.file = path.string();
-  std::ifstream stream = open_file(path);
-  if (!stream) throw InputError(place.file + ": error: cannot be read");
-  for (std::string whole; std::getline(stream, whole);) {
-    if (!whole.empty() && whole.back() == '\r') whole.pop_back();
-    for (std::size_t first = 0; first <= whole.size();) {
-      const std::size_t end = std::min(whole.find('\r', first), whole.size());
-      ++place.line;
-      place.text = std::string_view(whole).substr(first, end - first);
-      take(place.text);
-      first = end + 1;
-    }
-  }
-  place.text = {};
-  if (stream.bad()) throw InputError(place.file + ": error: cannot be read to its end");
+// The lines of a file by which its format is seen, without empty ones.
+std::vector<std::string> first_lines(const std::filesystem::path &path) {
+  constexpr std::size_t enough = 30;
+  TextPlace place;
+  std::vector<std::string> lines;
+  read_lines(path, place, [&](std::string_view line) {
+    if (!trimmed(line).empty()) lines.emplace_back(trimmed(line));
+    return lines.size() < enough && place.line < enough;
+  });
+  return lines;
 }
 
-dem::Shape read_shape(std::string_view text, const Place &place) {
-  std::istringstream words{std::string(text)};
-  std::string kind;
-  words >> kind;
-  dem::Shape shape;
-  std::map<std::string, double *> wanted;
-  if (kind == "cylinder")
-    wanted = {{"radius_m", &shape.radius}, {"height_m", &shape.height}};
-  else if (kind == "disc")
-    wanted = {{"radius_m", &shape.radius}, {"thickness_m", &shape.width_y}};
-  else if (kind == "box")
-    wanted = {{"width_x_m", &shape.width_x}, {"width_y_m", &shape.width_y}, {"height_m", &shape.height}};
-  else
-    place.fail(fmt::format("shape \"{}\" is not known; allowed: cylinder, box, disc", kind));
-  shape.kind = kind == "cylinder" ? dem::ShapeKind::cylinder : dem::ShapeKind::box;
-  for (std::string word; words >> word;) {
-    const auto equals = word.find('=');
-    const auto found = wanted.find(word.substr(0, equals));
-    const auto value = equals == std::string::npos ? std::nullopt : number_of(word.substr(equals + 1));
-    if (found == wanted.end() || !value || !std::isfinite(*value) || !(*value > 0))
-      place.fail(fmt::format("shape {}: \"{}\" is no dimension of it with a positive number", kind, word));
-    *found->second = *value;
-    wanted.erase(found);
+const SpecimenFormatRule &format_of(const std::filesystem::path &path, SpecimenFormat wanted) {
+  const std::vector<SpecimenFormatRule> &all = specimen_formats();
+  if (wanted == SpecimenFormat::automatic) {
+    const std::vector<std::string> lines = first_lines(path);
+    if (lines.empty()) return all.back();
+    return *std::find_if(all.begin(), all.end(),
+                         [&](const SpecimenFormatRule &rule) { return rule.is_one(lines); });
   }
-  if (!wanted.empty()) place.fail(fmt::format("shape {}: {} is missing", kind, wanted.begin()->first));
-  if (kind == "disc") return dem::disc(shape.radius, shape.width_y);
-  return shape;
+  return *std::find_if(all.begin(), all.end(),
+                       [&](const SpecimenFormatRule &rule) { return rule.format == wanted; });
 }
 
-void read_row(std::string_view row, const Place &place, dem::Specimen &specimen) {
-  double values[4] = {};
-  std::size_t begin = 0;
-  for (int k = 0; k < 4; ++k) {
-    const auto comma = row.find(',', begin);
-    if ((comma == std::string_view::npos) != (k == 3))
-      place.fail(fmt::format("a row has four values ({})", specimen_header));
-    const std::string_view text = trimmed(row.substr(begin, comma - begin));
-    const auto value = number_of(text);
-    if (!value || !std::isfinite(*value))
-      place.fail(fmt::format("column {}: \"{}\" is not a finite number", columns[k], text));
-    values[k] = *value;
-    begin = comma + 1;
+// Stands the spheres on z = 0, in the middle, and takes for the shape what their surfaces reach.
+void fill(dem::ShapeKind kind, SpecimenFile &file) {
+  dem::Specimen &specimen = file.specimen;
+  const dem::BoundingBox box = dem::bounding_box(specimen);
+  const Vector3 from{0.5 * (box.low.x + box.high.x), 0.5 * (box.low.y + box.high.y), box.low.z};
+  const Vector3 widths = box.high - box.low;
+  double reach = 0; // from the axis
+  for (std::size_t k = 0; k < specimen.size(); ++k) {
+    Vector3 &c = specimen.centre[k];
+    c = c - from;
+    reach = std::max(reach, std::hypot(c.x, c.y) + specimen.radius[k]);
   }
-  if (!(values[3] > 0)) place.fail(fmt::format("column radius_m: {} is not positive", values[3]));
-  specimen.centre.push_back({values[0], values[1], values[2]});
-  specimen.radius.push_back(values[3]);
+  const bool round = kind == dem::ShapeKind::cylinder;
+  specimen.shape = round ? dem::cylinder(reach, widths.z) : dem::box(widths.x, widths.y, widths.z);
+  file.notes.push_back(fmt::format(
+      "neither it nor the scene states the shape: {}, which the spheres reach",
+      round ? fmt::format("a cylinder of radius {:.6g} mm and height {:.6g} mm", 1e3 * reach, 1e3 * widths.z)
+            : fmt::format("a box of {:.6g} x {:.6g} x {:.6g} mm", 1e3 * widths.x, 1e3 * widths.y,
+                          1e3 * widths.z)));
+  if (norm(from) > 0)
+    file.notes.push_back(
+        fmt::format("spheres are moved by {:.6g}, {:.6g}, {:.6g} mm, onto z = 0 and about x = y = 0",
+                    -1e3 * from.x, -1e3 * from.y, -1e3 * from.z));
 }
 
 } // namespace
 
-SpecimenFile read_specimen_csv(const std::filesystem::path &path) {
-  Place place;
-  SpecimenFile read;
-  bool has_header = false;
-  read_lines(path, place, [&](std::string_view line) {
-    if (place.line == 1 && line.substr(0, 3) == "\xef\xbb\xbf") line.remove_prefix(3);
-    line = trimmed(line);
-    if (line.empty()) return;
-    if (line.front() == '#') {
-      if (line.substr(0, specimen_shape_words.size()) != specimen_shape_words) return;
-      read.specimen.shape = read_shape(line.substr(specimen_shape_words.size()), place);
-      read.states_shape = true;
-    } else if (has_header) {
-      read_row(line, place, read.specimen);
-    } else if (line == specimen_header) {
-      has_header = true;
-    } else {
-      place.fail(fmt::format("\"{}\" is not the header line \"{}\"", line.substr(0, shown), specimen_header));
-    }
+SpecimenFile read_specimen_file(const std::filesystem::path &path, const SpecimenForm &form) {
+  const SpecimenFormatRule &rule = format_of(path, form.format);
+  SpecimenReading reading(form);
+  reading.place.file = path.string();
+  if (!form.columns.empty() && rule.format != SpecimenFormat::columns)
+    reading.place.fail(
+        fmt::format("is of format {}, which names its columns itself. Allowed: Specimen/File "
+                    "columns of files without a header.",
+                    rule.word));
+  if (!form.columns.empty())
+    reading.table.take_names(form.columns, '\0', "Specimen/File columns", reading.place);
+  read_lines(path, reading.place, [&](std::string_view line) {
+    if (const std::string_view text = trimmed(line); !text.empty()) rule.take(reading, text);
+    return true;
   });
-  if (read.specimen.size() == 0) place.fail("the file holds no sphere");
-  return read;
+  rule.end(reading);
+  if (reading.read.specimen.size() == 0) reading.place.fail("the file holds no sphere");
+  SpecimenFile &read = reading.read;
+  for (std::string &note : reading.table.notes())
+    read.notes.push_back(std::move(note));
+  if (!read.states_shape && form.filled) fill(*form.filled, read);
+  return std::move(read);
 }
 
 std::vector<int> read_id_list(const std::filesystem::path &path, std::size_t spheres) {
-  Place place;
+  TextPlace place;
   std::vector<int> ids;
   std::map<int, std::size_t> line_of;
   read_lines(path, place, [&](std::string_view line) {
     const std::string_view text = trimmed(line.substr(0, line.find('#')));
-    if (text.empty()) return;
+    if (text.empty()) return true;
     int id = -1;
     const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), id);
     if (failure != std::errc() || end != text.data() + text.size() || id < 0)
       place.fail(
-          fmt::format("\"{}\" is no id. Allowed: a whole number, 0 or more, a line.", text.substr(0, shown)));
+          fmt::format("\"{}\" is no id. Allowed: a whole number, 0 or more, a line.", cut_short(text)));
     if (static_cast<std::size_t>(id) >= spheres)
       place.fail(fmt::format("names sphere {}, but the specimen has {}. Allowed: 0 ... {}.", id, spheres,
                              spheres - 1));
     const auto [found, fresh] = line_of.try_emplace(id, place.line);
     if (!fresh) place.fail(fmt::format("{} stands in line {} too.", id, found->second));
     ids.push_back(id);
+    return true;
   });
   return ids;
 }

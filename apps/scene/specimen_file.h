@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <limits>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,16 +21,33 @@ namespace platen::apps {
 constexpr std::string_view specimen_header = "x_m,y_m,z_m,radius_m";
 constexpr std::string_view specimen_shape_words = "# shape:";
 
+// How a file lists spheres (apps/scene/specimen_formats.h). Automatic: as its first lines look.
+enum class SpecimenFormat { automatic, columns, yade, lammps_data, lammps_dump };
+
+struct SpecimenForm {
+  SpecimenFormat format = SpecimenFormat::automatic;
+  std::string columns = {}; // names, of a file without a header; "": it has one
+  // What the spheres fill where the file states no shape, a box or a standing cylinder: they are moved so
+  // that they stand on z = 0, in the middle about x = y = 0. None: the shape stays empty.
+  std::optional<dem::ShapeKind> filled = std::nullopt;
+  bool with_ids = false;
+};
+
 struct SpecimenFile {
   dem::Specimen specimen;
-  bool states_shape = false; // else specimen.shape is empty and the scene must say what the shape is
+  bool states_shape = false;      // else specimen.shape is empty, or found, or the scene must say what it is
+  std::vector<double> ids;        // of its column "id", if asked for and there
+  std::vector<std::string> notes; // what was taken for granted
 };
 
 // Reads such a file, also one from elsewhere: comment lines (#), empty lines, CR LF, a byte order mark and
-// blanks around numbers are taken. Throws InputError with file, line, column and value where the header is
-// another, a row has too few or too many values, a number is none or not finite, or a radius is not positive;
-// and where no sphere is there.
-SpecimenFile read_specimen_csv(const std::filesystem::path &path);
+// blanks around numbers are taken. Throws InputError with file, line, column and value where a column is
+// missing or there twice, its unit is not known, a row has too few or too many values, a number is none or
+// not finite, or a radius is not positive; and where no sphere is there.
+SpecimenFile read_specimen_file(const std::filesystem::path &path, const SpecimenForm &form);
+inline SpecimenFile read_specimen_csv(const std::filesystem::path &path) {
+  return read_specimen_file(path, {});
+}
 
 // The numbers of the file in its order: whole, not negative, one a line; empty lines and what follows a "#"
 // are passed over. Throws InputError, naming file and line, where the file cannot be read, a line holds

@@ -315,10 +315,70 @@ TEST_F(PackApp, an_unsound_file_is_refused) {
 TEST_F(PackApp, a_file_without_a_shape_takes_that_of_the_scene) {
   write("spheres.csv", "x_m,y_m,z_m,radius_m\n0,0,0.01,0.001\n0.002,0,0.01,0.001\n");
   const std::string file = "subsection Specimen\n  set Packing = file\n  set File = spheres.csv\n";
-  write("shapeless.prm", file + "end\n");
-  EXPECT_THROW(make_specimen(scene("shapeless.prm")), InputError);
+  write("shapeless.prm", file + "  set Height = 20 mm\nend\n");
+  EXPECT_TRUE(contains(message_of<InputError>([&] { make_specimen(scene("shapeless.prm")); }),
+                       "states no shape: the scene has to give Specimen/Height and Radius"));
   write("shaped.prm", file + "  set Radius = 8 mm\n  set Height = 20 mm\nend\n");
   EXPECT_DOUBLE_EQ(make_specimen(scene("shaped.prm")).shape.radius, 8e-3);
+}
+
+// Neither file nor scene has a length: a box, or the cylinder that the scene asks for.
+TEST_F(PackApp, a_shape_that_nobody_states_is_what_the_spheres_reach) {
+  write("spheres.csv", "x_mm;y_mm;z_mm;radius_mm\n1,5;2;3;1\n4,5;2;3;1\n");
+  write("shapeless.prm", "subsection Specimen\n  set Packing = file\n  set File = spheres.csv\nend\n");
+  const Scene box = scene("shapeless.prm"), round = scene("shapeless.prm", {"Specimen/Shape = cylinder"});
+  EXPECT_EQ(box.specimen.shape, SpecimenShape::box);
+  EXPECT_NEAR(box.specimen.width_x, 5e-3, 1e-15);
+  ASSERT_EQ(box.notes.size(), 3u);
+  EXPECT_TRUE(
+      contains(box.notes[0],
+               "shapeless.prm:3: note: Specimen/File = spheres.csv, commas in numbers are decimal signs."));
+  EXPECT_TRUE(contains(box.notes[1], "a box of 5 x 2 x 2 mm"));
+  EXPECT_TRUE(contains(box.notes[2], "moved by -3, -2, -2 mm"));
+  const dem::Specimen in_box = make_specimen(box), in_cylinder = make_specimen(round);
+  EXPECT_NEAR(in_box.centre[0].x, -1.5e-3, 1e-15);
+  EXPECT_NEAR(in_box.centre[1].z, 1e-3, 1e-15);
+  EXPECT_EQ(in_cylinder.shape.kind, dem::ShapeKind::cylinder);
+  EXPECT_NEAR(in_cylinder.shape.radius, 2.5e-3, 1e-15);
+  EXPECT_EQ(round.specimen.radius, in_cylinder.shape.radius);
+  ASSERT_EQ(run(box, "moved"), status_done);
+  // The scene that is written asks for the same box.
+  EXPECT_EQ(scene("moved/scene.prm").specimen.shape, SpecimenShape::box);
+  write("again.prm", "subsection Specimen\n  set Packing = file\n  set File = moved/specimen.csv\nend\n");
+  EXPECT_TRUE(scene("again.prm").notes.empty());
+}
+
+TEST_F(PackApp, what_it_exports_is_read_back_to_the_same_bytes) {
+  ASSERT_EQ(run(scene("small.prm", {"Specimen/Export = lammps dump, yade, lammps data"}), "a"), status_done);
+  const std::string packed = content_of(folder_ / "a/specimen.csv");
+  for (const std::string file : {"specimen.yade.txt", "specimen.data", "specimen.dump"}) {
+    const Scene again =
+        scene("small.prm", {"Specimen/Packing = file", "Specimen/File = " + (folder_ / "a" / file).string()});
+    EXPECT_TRUE(again.notes.empty()) << again.notes.front();
+    ASSERT_EQ(run(again, file), status_done);
+    EXPECT_EQ(content_of(folder_ / file / "specimen.csv"), packed) << file;
+    EXPECT_FALSE(fs::exists(folder_ / file / "specimen.dump"));
+  }
+  EXPECT_THROW(scene("small.prm", {"Specimen/Export = columns"}), InputError);
+}
+
+TEST_F(PackApp, the_scene_says_how_a_file_lists_its_spheres) {
+  write("bare.txt", "0 0 10 2\n2 0 10 2\n");
+  const Words file{"Specimen/Packing = file", "Specimen/File = " + (folder_ / "bare.txt").string()};
+  const auto with = [&](const Words &more) {
+    Words all = file;
+    all.insert(all.end(), more.begin(), more.end());
+    return scene("small.prm", all);
+  };
+  const dem::Specimen bare = make_specimen(with({"Specimen/File columns = x_mm, y_mm, z_mm, diameter_mm"}));
+  EXPECT_EQ(bare.centre[1].x, 0.002);
+  EXPECT_EQ(bare.radius[1], 0.001);
+  EXPECT_TRUE(contains(message_of<InputError>([&] { with({}); }),
+                       "bare.txt:1: error: \"0 0 10 2\" is not the header"));
+  EXPECT_TRUE(contains(message_of<InputError>([&] { with({"Specimen/File format = lammps data"}); }),
+                       "bare.txt: error: lists no atoms"));
+  write("bare.txt", "0 0 .01 .001\n.002 0 .01 .001\n");
+  EXPECT_EQ(make_specimen(with({"Specimen/File format = yade"})).centre[1].x, 0.002);
 }
 
 TEST_F(PackApp, what_no_packer_can_do_is_refused) {

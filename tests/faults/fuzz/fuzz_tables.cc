@@ -1,4 +1,4 @@
-// Tables of text: specimens and lists of ids. The first byte chooses.
+// Tables of text: specimens in all formats and lists of ids. The first byte chooses.
 #include <cstdint>
 
 #include "apps/output/specimen_csv.h"
@@ -14,7 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     if (data[0] % 3 == 0)
       read_id_list(file.path(), 1000);
     else
-      read_specimen_csv(file.path());
+      read_specimen_file(file.path(), {data[0] % 2 == 0 ? SpecimenFormat::automatic : SpecimenFormat::yade,
+                                       "", dem::ShapeKind::cylinder, data[0] % 5 == 0});
   } catch (const InputError &) {
   }
   return 0;
