@@ -11,7 +11,6 @@
 #include "base/pi.h"
 #include "base/shortest_text.h"
 #include "base/state.h"
-#include "dem/cell_grid.h"
 #include "dem/kernels/cohesive_kernel.h"
 #include "dem/measure/damage.h"
 #include "dem/pairs_in_state.h"
@@ -33,30 +32,6 @@ double power_taken(const BrokenBond &b, const Particles &p) {
     power -= along(b.last.torque_i, (*p.angular_velocity)[b.first]) +
              along(b.last.torque_j, (*p.angular_velocity)[b.second]);
   return power;
-}
-
-// Pairs within the layout's range, sorted by (first, second).
-std::vector<IndexPair> pairs_in_range(const Vector3 *position, const double *radius, std::size_t n,
-                                      const BondLayout &layout) {
-  const double largest = n > 0 ? *std::max_element(radius, radius + n) : 0;
-  // Slightly wider than the reach, so that only the test below decides.
-  const double margin = layout.reach(largest, largest) * (1 + 1e-9) + 1e-9 * largest;
-  std::vector<IndexPair> pairs = near_pairs(position, radius, n, margin);
-  const auto out_of_range = [&](const IndexPair &p) {
-    const double ri = radius[p.first], rj = radius[p.second];
-    const double gap = norm(position[p.second] - position[p.first]) - ri - rj;
-    return gap > layout.reach(ri, rj) || -gap > layout.largest_overlap(ri, rj);
-  };
-  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), out_of_range), pairs.end());
-  return pairs;
-}
-
-void drop_parted(std::vector<IndexPair> &pairs, const Particles &particles, const Notch &notch) {
-  if (!notch.is_there()) return;
-  const auto is_parted = [&](const IndexPair &p) {
-    return notch.parts(particles.position[p.first], particles.position[p.second]);
-  };
-  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_parted), pairs.end());
 }
 
 // Allowed values of a history variable, by its name in the laws.
@@ -90,15 +65,15 @@ double packing_factor(const Specimen &s, const BondLayout &layout) {
 }
 
 Bonds::Bonds(const Particles &particles, const BondLayout &layout, const BondParameters &parameters,
-             const Notch &notch)
+             const Notch &notch, const BondChoice &choice)
     : law(bond_law(parameters)), particles_(particles.size()), rotation_(particles.has_rotation()) {
   require_in_range(layout);
   require_given(layout, "modulus", layout.modulus);
   if (layout.radius_rule == RadiusRule::given) require_given(layout, "radius", layout.radius);
   if (needs_rotation(law) && !rotation_) throw std::invalid_argument("beams need spheres that turn");
-  std::vector<IndexPair> pairs =
-      pairs_in_range(particles.position.data(), particles.radius.data(), particles.size(), layout);
-  drop_parted(pairs, particles, notch);
+  const BondedPairs chosen = bonded_pairs(particles, layout, notch, choice);
+  const std::vector<IndexPair> &pairs = chosen.pairs;
+  in_flaw = chosen.in_flaw;
 
   table.resize(pairs.size());
   records.resize(pairs.size());
@@ -120,6 +95,11 @@ Bonds::Bonds(const Particles &particles, const BondLayout &layout, const BondPar
     bond_radius[k] = layout.bond_radius(ri, rj);
     state[k] = static_cast<int>(BondState::intact);
     break_time[k] = std::numeric_limits<double>::quiet_NaN();
+  }
+  const auto differs = [](double factor) { return factor != 1; };
+  if (std::any_of(chosen.strength_factor.begin(), chosen.strength_factor.end(), differs)) {
+    add_strength_factor();
+    std::copy(chosen.strength_factor.begin(), chosen.strength_factor.end(), strength_factor->begin());
   }
   if (has_history(law)) add_history();
   count_and_cut();

@@ -8,6 +8,7 @@
 #include "base/loop.h"
 #include "base/parallel.h"
 #include "base/table.h"
+#include "dem/bond_choice.h"
 #include "dem/instruction_set.h"
 #include "dem/laws/bond_law.h"
 #include "dem/laws/bond_layout.h"
@@ -68,11 +69,13 @@ struct Bonds {
   BondLaw law;
   std::size_t broken_rows = 0; // rows of `table` with zero stiffness
 
-  // Bonds all pairs within the layout's reach; pairs are sorted by (first, second). Throws
-  // std::invalid_argument if spheres share a centre, or if the law needs rotation and there is none.
-  // None is made across the notch.
+  std::vector<std::size_t> in_flaw; // of each flaw: initial bonds that it cut or weakened
+
+  // Bonds all pairs within the layout's reach, or those of the choice; pairs are sorted by (first, second).
+  // Throws std::invalid_argument if spheres share a centre, or if the law needs rotation and there is none.
+  // None is made across the notch, nor through a flaw that cuts.
   Bonds(const Particles &particles, const BondLayout &layout, const BondParameters &parameters,
-        const Notch &notch = {});
+        const Notch &notch = {}, const BondChoice &choice = {});
 
   // Adds dashpots of the fraction alpha of critical to every bond: F = 2 alpha sqrt(K m*) v in parallel with
   // each spring of stiffness K, with the reduced mass m* (inertia for moments). Bonds must be intact.

@@ -70,7 +70,8 @@ Model::Model(const Specimen &specimen, const ModelSettings &settings)
   if (settings.phi() > 1) particles.add_excess();
   if (settings.phases) mark_phases(particles, *settings.phases);
   if (settings.bond)
-    bonds = std::make_unique<Bonds>(particles, settings_.bond_layout, *settings.bond, specimen.shape.notch);
+    bonds = std::make_unique<Bonds>(particles, settings_.bond_layout, *settings.bond, specimen.shape.notch,
+                                    settings.bond_choice);
   if (bonds) set_grain_friction(bonds->law, rubs(settings) ? settings.contact->friction : 0);
   if (bonds && settings.phases) apply_phases(*bonds, particles, *settings.phases);
   if (bonds && settings.strength_scatter) scatter_strengths(*bonds, *settings.strength_scatter);

@@ -43,6 +43,7 @@ struct ModelSettings {
   double dissipation = 1.1; // phi of Tchamwa and Wielgosz, 1 ... 1.5; 1: velocity Verlet
   std::optional<StrengthScatter> strength_scatter; // none: all bonds have the same strength
   std::optional<Phases> phases;                    // none: all grains are alike
+  BondChoice bond_choice;                          // which pairs are bonded; as it is: all within reach
 
   double phi() const { return scheme == Scheme::tchamwa_wielgosz ? dissipation : 1; } // of the scheme chosen
 
