@@ -62,8 +62,9 @@ Program pack() {
   p.reads = {"Scene",        "Specimen",  "Material/Density",    "Material/Density of",
              "Effects/Bond", "Phases/By", "Phases/Radius above", "Phases/File",
              "Expect"};
-  p.but = {"Scene/Quality",  "Scene/Standard",       "Specimen/Seat",       "Specimen/Section",
-           "Specimen/Cache", "Specimen/Notch depth", "Specimen/Notch width"};
+  p.but = {"Scene/Quality",        "Scene/Standard",     "Specimen/Seat",
+           "Specimen/Section",     "Specimen/Cache",     "Specimen/Notch depth",
+           "Specimen/Notch width", "Specimen/Bond file", "Specimen/Flaw"};
   return p;
 }
 

@@ -1,5 +1,6 @@
 #include "apps/run/problem_setup.h"
 
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 #include <utility>
@@ -70,6 +71,10 @@ std::vector<Effect> effects(const Scene &s) {
       {bonded && m.crack_log, "crack log", "Effects/Crack log"},
       {s.output.fields, "fields", "Output/Fields"}};
   all.insert(all.end(), others.begin(), others.end());
+  const auto given = [](const std::optional<dem::Flaw> &flaw) { return flaw.has_value(); };
+  if (bonded && !s.specimen.bond_file.empty()) all.push_back({true, "bonds of a file", "Specimen/Bond file"});
+  if (bonded && std::any_of(s.specimen.flaws.begin(), s.specimen.flaws.end(), given))
+    all.push_back({true, "flaws", "Specimen/Flaw 1"});
   if (s.platens.machine.yields()) all.push_back({true, "machine spring", "Platens/Machine stiffness"});
   return all;
 }

@@ -28,10 +28,10 @@ constexpr const char *lock_name = "in_use";
 constexpr std::chrono::hours patience{1};
 
 // Of the specimen, but not of where its spheres are.
-constexpr std::array<const char *, 10> no_part_of_it{
-    "Specimen/File",        "Specimen/File format", "Specimen/File columns", "Specimen/Export",
-    "Specimen/Ends",        "Specimen/End layer",   "Specimen/Seat",         "Specimen/Cache",
-    "Specimen/Notch depth", "Specimen/Notch width"};
+constexpr std::array<const char *, 11> no_part_of_it{
+    "Specimen/File",      "Specimen/File format", "Specimen/File columns", "Specimen/Export",
+    "Specimen/Bond file", "Specimen/Ends",        "Specimen/End layer",    "Specimen/Seat",
+    "Specimen/Cache",     "Specimen/Notch depth", "Specimen/Notch width"};
 
 // Of a file, what it holds.
 std::string recipe_text(const Entry &entry) {
@@ -131,7 +131,7 @@ std::string packing_recipe(const Scene &scene, unsigned long seed) {
   if (scene.specimen.packing == PackingKind::file) return "";
   std::string recipe;
   for (const Entry &entry : scene.parameters->entries())
-    if (entry.path.rfind("Specimen/", 0) == 0 &&
+    if (entry.path.rfind("Specimen/", 0) == 0 && entry.path.rfind("Specimen/Flaw ", 0) != 0 &&
         std::find(no_part_of_it.begin(), no_part_of_it.end(), entry.path) == no_part_of_it.end())
       recipe += fmt::format("{} = {}; ", entry.path, recipe_text(entry));
   return fmt::format("{}Scene/Seed = {}; {}", recipe, seed, version_line());

@@ -55,6 +55,22 @@ void add_overlap(SpecimenState &state, const dem::Specimen &specimen) {
   }
 }
 
+// Of the flaws that the scene gives, in their order.
+std::vector<std::string> entries_of_flaws(const Scene &scene) {
+  std::vector<std::string> entries;
+  for (std::size_t k = 0; k < most_flaws; ++k)
+    if (scene.specimen.flaws[k]) entries.push_back("Specimen/Flaw " + std::to_string(k + 1));
+  return entries;
+}
+
+// What a specimen in pieces, or without bonds, is due to.
+std::string cause_of_pieces(const Scene &scene) {
+  const std::vector<std::string> flaws = entries_of_flaws(scene);
+  if (!flaws.empty()) return flaws.front();
+  if (scene.specimen.packing != PackingKind::file) return "Bond/Gap";
+  return scene.specimen.bond_file.empty() ? "Specimen/File" : "Specimen/Bond file";
+}
+
 } // namespace
 
 void require_spheres(const Scene &scene, const dem::Specimen &specimen) {
@@ -71,6 +87,7 @@ SpecimenState state_of(const Scene &scene, const dem::Specimen &specimen, const 
   if (scene.specimen.packing != PackingKind::file) state.radius_asked = scene.specimen.sphere_radius;
   state.spheres = specimen.size();
   state.bonds = test.model.bonds ? test.model.bonds->initial_count() : 0;
+  if (test.model.bonds) state.in_flaw = test.model.bonds->in_flaw;
   const int axis = coupling::loaded_axis(test);
   state.from_ends = {coupling::distance_to_plane(specimen, coupling::low_side(axis)),
                      coupling::distance_to_plane(specimen, coupling::opposite(coupling::low_side(axis)))};
@@ -96,8 +113,11 @@ void require_specimen(const Scene &scene, const SpecimenState &state) {
     refuse(scene, "Bond/Gap",
            "leaves no bond: no two spheres are that near. Allowed: a larger one, a denser packing, or "
            "Effects/Bond = none.");
-  const bool from_file = scene.specimen.packing == PackingKind::file;
-  const std::string cause = from_file ? "Specimen/File" : "Bond/Gap";
+  const std::vector<std::string> flaws = entries_of_flaws(scene);
+  for (std::size_t k = 0; k < state.in_flaw.size(); ++k)
+    if (state.in_flaw[k] == 0)
+      refuse(scene, flaws.at(k), "passes no bond. Allowed: one within the specimen, wider than its spheres.");
+  const std::string cause = cause_of_pieces(scene);
   if (state.largest_piece < least_of_one_piece)
     refuse(scene, cause,
            fmt::format(
@@ -118,6 +138,8 @@ std::string text_of(const SpecimenState &state) {
     text += fmt::format(
         "  pieces {}, the largest with {:.1f} % of the bonded spheres; {} spheres without a bond\n",
         state.pieces, 100 * state.largest_piece, state.loose);
+  for (std::size_t k = 0; k < state.in_flaw.size(); ++k)
+    text += fmt::format("  flaw {} of {}: {} bonds\n", k + 1, state.in_flaw.size(), state.in_flaw[k]);
   if (const std::string filled = text_of(state.section); !filled.empty())
     text += "  spheres and their pores fill " + filled + "\n";
   text += fmt::format("  mean radius {:.5g} mm", 1e3 * state.mean_radius);

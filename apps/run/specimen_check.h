@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "apps/scene/scene.h"
 #include "coupling/platen_test.h"
@@ -20,6 +21,7 @@ struct SpecimenState {
   double deepest_overlap = 0;           // over the smaller of the two radii
   std::array<int, 2> deepest{{-1, -1}}; // the ids of these spheres
   std::array<double, 2> from_ends{}; // m, of the outermost sphere from the low and the high end of that axis
+  std::vector<std::size_t> in_flaw;  // of each flaw: bonds that it cuts or weakens
   dem::SolidSection section;
   double mean_radius = 0;          // m
   double radius_asked = not_given; // m; NaN of spheres from a file

@@ -54,9 +54,13 @@ void SceneCheck::specimen() const {
   if (!program_.packs) return;
   if (program_.presses_specimens() && specimen.notch.is_there() && scene_.phases.by == PhasesBy::file)
     refuse("Phases/By", "numbers spheres of which a notch takes some away. Allowed: none, radius.");
+  if (program_.presses_specimens() && specimen.notch.is_there() && !specimen.bond_file.empty())
+    refuse("Specimen/Bond file",
+           "names spheres of which a notch takes some away. Allowed: a Specimen/Flaw 1 that cuts.");
   cross_section();
   if (specimen.packing == PackingKind::file) {
     readable("Specimen/File", specimen.file, "Packing = file takes the spheres from it.");
+    if (!specimen.bond_file.empty()) readable("Specimen/Bond file", specimen.bond_file, "");
   } else {
     const std::string why = "the specimen is to be packed.";
     const bool rectangular =

@@ -5,11 +5,11 @@
 namespace platen::apps {
 namespace {
 
-// "Loading/Stage" holds "Loading/Stage 3/Ramp" too.
+// "Loading/Stage" holds "Loading/Stage 3/Ramp" too, "Specimen/Flaw" all flaws.
 bool holds(const std::string &part, const std::string &path) {
   if (path.rfind(part, 0) != 0) return false;
   const bool ends = path.size() == part.size() || path[part.size()] == '/';
-  return ends || (part == "Loading/Stage" && path[part.size()] == ' ');
+  return ends || ((part == "Loading/Stage" || part == "Specimen/Flaw") && path[part.size()] == ' ');
 }
 
 // The length of the longest part that holds the path; 0 where none does.

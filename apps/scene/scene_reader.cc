@@ -91,6 +91,7 @@ void inherit(Scene &scene, Parameters &parameters, const Program &program) {
     platens.face(which).mesh_file = resolved_path(parameters.at(section_of(which) + "/Mesh file"));
   }
   scene.specimen.file = resolved_path(parameters.at("Specimen/File"));
+  scene.specimen.bond_file = resolved_path(parameters.at("Specimen/Bond file"));
   parameters.attempt([&] { supply_specimen(scene, parameters); });
   parameters.attempt([&] { supply_layers(parameters, platens); });
   if (platens.thickness == 0 && !std::isnan(scene.specimen.height))

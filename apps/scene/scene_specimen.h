@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "apps/scene/quantities.h"
 #include "apps/scene/specimen_file.h"
+#include "dem/bond_choice.h"
 #include "dem/contacts.h"
 #include "dem/heterogeneity.h"
 #include "dem/packing/advancing_front.h"
@@ -19,6 +21,8 @@ namespace platen::apps {
 enum class SpecimenShape { cylinder, box, bar, disc };
 using RadiusKind = dem::RadiusDistribution::Kind;
 enum class PackingKind { advancing_front, random_close, file };
+
+constexpr std::size_t most_flaws = 8;
 
 struct SpecimenSection {
   SpecimenShape shape = SpecimenShape::cylinder;
@@ -35,6 +39,8 @@ struct SpecimenSection {
   std::string file;                    // Packing = file; resolved against the folder of the scene
   SpecimenForm form;                   // of that file
   std::vector<SpecimenFormat> exports; // of a packing, besides specimen.csv
+  std::string bond_file;               // names the bonded pairs; resolved as File
+  std::array<std::optional<dem::Flaw>, most_flaws> flaws;
   dem::EndPreparation ends = dem::EndPreparation::as_packed;
   double end_layer = 1;          // mean sphere radii
   double end_height = not_given; // m, of ends that are not flat

@@ -1,6 +1,7 @@
 // The specimen, its grains, and which effects act between them.
 #include <stdexcept>
 
+#include "apps/scene/flaws.h"
 #include "apps/scene/members.h"
 #include "apps/scene/sections.h"
 #include "apps/scene/specimen_formats.h"
@@ -31,6 +32,21 @@ std::vector<SpecimenFormat> read_exports(const std::string &text) {
       if (rule.word == name) return rule.format;
     throw std::logic_error("a format without a rule");
   });
+}
+
+void declare_flaws(Parameters &parameters, SpecimenSection &specimen) {
+  parameters.declare_series(
+      "Specimen/Flaw 1", specimen.flaws.size(), [&specimen](Parameters &to, std::size_t number) {
+        const std::string key = "Flaw " + std::to_string(number);
+        Section(to, "Specimen")
+            .unless("Effects/Bond", {"none"})
+            .value(key, specimen.flaws[number - 1], "", flaw_allowed, read_flaw,
+                   "A crack or weak plane that is there before the test, in the coordinates of the specimen "
+                   "between "
+                   "its platens: bonds whose line between centres passes through it are cut, or both their "
+                   "strengths "
+                   "times the factor. Of a rectangle the first width is the horizontal one.");
+      });
 }
 
 } // namespace
@@ -90,6 +106,11 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
   read.text("File columns", specimen.form.columns,
             "Names of the columns of a File without a header, commas between them: \"id, x_mm, y_mm, z_mm, "
             "diameter_mm\".");
+  read.file("Bond file", specimen.bond_file,
+            "Pairs of spheres that are bonded, and no others: columns a, b and, if wanted, strength_factor, "
+            "broken (0, "
+            "1: no bond). Spheres are named by the column id of File, or by their rows there, from 0.")
+      .unless("Effects/Bond", {"none"});
   section
       .value("Export", specimen.exports, "", "with commas between them, any of " + joined(names_of_exports()),
              read_exports,
@@ -149,6 +170,7 @@ void declare_specimen(Parameters &parameters, SpecimenSection &specimen) {
              "Of that notch along the bar; 0: bonds are cut alone.")
       .only_if([](const Scene &s) { return s.specimen.notch.is_there(); }, "Specimen/Notch depth is 0")
       .member("specimen.notch_width");
+  declare_flaws(parameters, specimen);
 }
 
 void declare_material(Parameters &parameters, dem::ModelSettings &model, dem::ContactSettings &contact) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "apps/scene/program.h"
 #include "base/portable.h"
 
 namespace platen::apps {
@@ -56,6 +57,9 @@ dem::ModelSettings model_without_files(const Scene &scene) {
   if (scene.phases.by != PhasesBy::none) to.phases = scene.phases.phases;
   if (scene.phases.by == PhasesBy::file) to.phases->radius_above = not_given;
   to.contact = contact_settings(scene);
+  if (scene.program != nullptr && scene.program->packs)
+    for (const std::optional<dem::Flaw> &flaw : scene.specimen.flaws)
+      if (flaw) to.bond_choice.flaws.push_back(*flaw);
   return to;
 }
 

@@ -36,4 +36,5 @@ set(PLATEN_SCENE_SOURCES
   scene/expect.cc
   scene/command_line.cc
   scene/run_app.cc
-  scene/version.cc)
+  scene/version.cc
+  scene/flaws.cc)

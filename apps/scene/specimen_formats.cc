@@ -15,9 +15,9 @@ namespace {
 
 using Reading = SpecimenReading;
 using Part = Reading::Part;
-enum Column : std::size_t { x, y, z, radius, id };
+enum SphereColumn : std::size_t { x, y, z, radius, id };
 
-const KnownColumns &known_columns(bool with_ids) {
+const KnownColumns &columns_of_spheres(bool with_ids) {
   static const KnownColumns spheres{
       {{"x", x}, {"y", y}, {"z", z}, {"radius", radius}, {"r", radius}, {"diameter", radius, 0.5}}, 4, 4};
   static const KnownColumns named = [] {
@@ -220,7 +220,8 @@ void end_at_once(Reading &) {}
 
 } // namespace
 
-SpecimenReading::SpecimenReading(const SpecimenForm &how) : form(how), table(known_columns(how.with_ids)) {}
+SpecimenReading::SpecimenReading(const SpecimenForm &how)
+    : form(how), table(columns_of_spheres(how.with_ids)) {}
 
 void SpecimenReading::take_row(std::string_view line) {
   table.read_row(line, place);

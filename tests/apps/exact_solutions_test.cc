@@ -89,6 +89,66 @@ TEST_F(Exact, a_simple_cubic_lattice_has_the_modulus_of_its_bonds) {
   pressed("driven", 1e-4, {"Loading/Axial rate = 0.001 m/s", "Integration/Damping = 0.7"});
 }
 
+// All neighbours of the lattice, backwards.
+std::string bonds_of_lattice() {
+  std::ostringstream text;
+  text << "b,a\n";
+  for (int i = across * across * along - 1; i >= 0; --i) {
+    if (i % across > 0) text << i - 1 << ',' << i << '\n';
+    if (i / across % across > 0) text << i << ',' << i - across << '\n';
+    if (i >= across * across) text << i - across * across << ',' << i << '\n';
+  }
+  return text.str();
+}
+
+TEST_F(Exact, a_lattice_whose_bonds_a_file_names_is_the_same_to_the_byte) {
+  write("lattice.csv", cubic_box(), cubic_lattice());
+  put(folder_ / "bonds.csv", bonds_of_lattice());
+  const Words begun{"Platens/Stiffness = 1", "Loading/Start strain = 1e-4"},
+      named = with(begun, {"Specimen/Bond file = bonds.csv"});
+  const nlohmann::json near = press("near", begun), by_name = press("named", named);
+  EXPECT_EQ(by_name["bonds"], 16 * 7 + 2 * 12 * 8);
+  EXPECT_EQ(content_of(folder_ / "named/history.csv"), content_of(folder_ / "near/history.csv"));
+  EXPECT_EQ(by_name["youngs_modulus_gauge_pa"], near["youngs_modulus_gauge_pa"]);
+}
+
+// A weak plane changes no stiffness, a cut through half of the section some of it, and what passes no bond is
+// a slip.
+TEST_F(Exact, flaws_take_the_bonds_that_they_pass) {
+  write("lattice.csv", cubic_box(), cubic_lattice());
+  const std::string at = " at 0, 0, " + text(along * radius) + " normal 0, 0, 1 ", whole_end = "strength 0.5",
+                    half = "Specimen/Flaw 1 = rectangle at " + text(across * radius) + ", 0, " +
+                           text(along * radius) + " normal 0, 0, 1 widths " + text(2 * across * radius) +
+                           ", 1 m cut";
+  const Words begun{"Platens/Stiffness = 1", "Loading/Start strain = 1e-4"};
+  const double exact = press("whole", begun)["youngs_modulus_platen_pa"].get<double>();
+  const nlohmann::json weak = press("weak", with(begun, {"Specimen/Flaw 1 = plane" + at + whole_end}));
+  EXPECT_EQ(weak["youngs_modulus_platen_pa"].get<double>(), exact);
+  EXPECT_TRUE(contains(content_of(folder_ / "weak/run.log"), "flaw 1 of 1: 16 bonds"));
+  EXPECT_TRUE(contains(weak["effects"].dump(), "\"flaws\""));
+  // Without shear each column is a spring of its own, and half of them bear.
+  for (const double shear : {0.0, 0.4}) {
+    const Words sprung = with(
+        begun, {"Effects/Contact = none", "Effects/Rotation = off", "Bond/Stiffness ratio = " + text(shear)});
+    const std::string name = "cut" + text(shear);
+    const double uncut = press("un" + name, sprung)["youngs_modulus_platen_pa"].get<double>(),
+                 share = press(name, with(sprung, {half}))["youngs_modulus_platen_pa"].get<double>() / uncut;
+    if (shear == 0)
+      EXPECT_NEAR(share, 0.5, 1e-6);
+    else
+      EXPECT_TRUE(share > 0.55 && share < 0.95) << share;
+  }
+  const auto refused = [&](const std::string &entry, const std::string &says) {
+    const Outcome outcome =
+        run_compress(arguments("refused", {"Specimen/File = lattice.csv", entry}), folder_);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_TRUE(contains(outcome.error, says)) << outcome.error;
+  };
+  refused("Specimen/Flaw 3 = plane" + at + "cut", "leaves the specimen in 2 pieces, the largest with 50 %");
+  refused("Specimen/Flaw 3 = plane at 0, 0, 1 m normal 0, 0, 1 cut",
+          "Specimen/Flaw 3 = plane at 0, 0, 1 m normal 0, 0, 1 cut passes no bond");
+}
+
 // A lattice without its inner 4 x 4 of 8 x 8 columns has the modulus of the whole one, over the section that
 // is there: over that of its box it is .75 of it, and no figure of the material.
 class Hollow : public Exact {

@@ -120,6 +120,10 @@ TEST(bond_choice, a_flaw_cuts_the_bonds_within_it_and_no_others) {
   Flaw slanted = flat(Form::plane, middle);
   slanted.normal = {std::sqrt(.5), std::sqrt(.5), 0}, slanted.centre = {0.1 * radius, 0, 0};
   EXPECT_EQ(cut_by(slanted, lattice), 6u * 10);
+  // Of these, 4 within 2 radii of the middle, on 2 levels.
+  slanted.form = Form::rectangle, slanted.width = 4 * radius, slanted.breadth = 5 * radius;
+  slanted.centre.z = middle;
+  EXPECT_EQ(cut_by(slanted, lattice), 2u * 4);
 }
 
 TEST(bond_choice, factors_of_flaws_and_given_bonds_multiply) {
