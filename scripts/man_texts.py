@@ -43,6 +43,8 @@ MORE = {
         "--laboratory draws a measured curve beside that of the run, with the differences in stiffness, strength and strain. The file is read "
         "as a laboratory writes it: any header that names stress or load and strain or displacement with their units, comma, semicolon or tab, "
         "decimal comma, %, per mille, kN and mm. --curve writes it as platen-calibrate reads it.",
+        "For a study --laboratory takes a list: columns case, figure, value, and as needed unit, deviation, over, curve, a row for each measured figure. "
+        "Figures agree within two scatters.",
         "--standard writes the test report by the standard that Scene/Standard names, FOLDER/pictures/test_report.html, for one or two sheets "
         "A4; what a simulation cannot know is left open by name.",
     ],
@@ -143,5 +145,6 @@ EXAMPLES = {
     "platen-calibrate": [("platen-calibrate " + SCENE.format("calibrate_concrete"), "Finds bonds for a concrete of four numbers:")],
     "platen-study": [("platen-study friction " + SCENE.format("study_friction_quick") + " -o friction\nplaten-report friction",
                       "Friction of the platens on short and slender specimens:")],
-    "platen-report": [("platen-report results/dry --compare results/greased", "A page of two runs, side by side:")],
+    "platen-report": [("platen-report results/dry --compare results/greased", "A page of two runs, side by side:"),
+                      ("platen-report envelope --laboratory mine.csv", "A study beside a laboratory's list of figures:")],
 }

@@ -14,16 +14,16 @@ from pathlib import Path
 
 from ..errors import InputError
 
-_MODULES = ("comparison", "cracks", "curves", "envelope", "fields", "house", "laboratory", "pages", "platens", "precision", "programs",
+_MODULES = ("comparison", "cracks", "curves", "envelope", "fields", "house", "laboratory", "laboratory_list", "laboratory_study", "pages", "platens", "precision", "programs",
             "specimen", "standard", "studies", "words")
 
 
 def page(run, output=None, forms=(), compare=(), measured=None, write_fields=False, say=lambda *_: None, by_standard=False):
     """Draws the page of a run, a study, a calibration or another program's results into `output` (FOLDER/pictures), from a
-    folder or a platen.Run; forms: further files of each chart ("pdf", "svg"); measured: (file, columns) of a laboratory's curve;
+    folder or a platen.Run; forms: further files of each chart ("pdf", "svg"); measured: (file, columns) of a laboratory's curve, of a study of its list;
     write_fields: fields.write_fields too; by_standard: instead the test report by Scene/Standard, test_report.html. Returns the path of
     the page. InputError, OutputError."""
-    from . import comparison, fields, laboratory, pages, programs, standard, studies
+    from . import comparison, fields, laboratory, laboratory_study, pages, programs, standard, studies
     from .run import TestRun
 
     folder = Path(getattr(run, "folder", run))
@@ -31,7 +31,7 @@ def page(run, output=None, forms=(), compare=(), measured=None, write_fields=Fal
         raise InputError(f"{folder}: no such folder")
     of_study = (folder / "study.json").exists()
     made = studies.page_of(folder, *compare) if of_study else programs.page_of(folder)
-    for option, what, asked in (("--compare", "runs and studies", compare and not of_study), ("--laboratory", "runs", measured),
+    for option, what, asked in (("--compare", "runs and studies", compare and not of_study), ("--laboratory", "runs and studies", measured and not of_study),
                                 ("--fields", "runs", write_fields), ("--standard", "runs", by_standard)):
         if made is not None and asked:
             raise InputError(f"{option} is for {what}; {folder} holds none")
@@ -45,6 +45,10 @@ def page(run, output=None, forms=(), compare=(), measured=None, write_fields=Fal
         for test in tests:
             test.read_all()
         made = comparison.page_of_runs(tests, laboratory.of_specimen(tests[0], *measured) if measured else None)
+    elif of_study and measured:
+        if compare:
+            raise InputError("--laboratory is for one study alone. Allowed: without --compare")
+        made = laboratory_study.added(made, folder, *measured)
     path = pages.write(made, output or folder / "pictures", forms, say)
     if write_fields:
         say(f"fields: {fields.write_fields(tests[0])}")

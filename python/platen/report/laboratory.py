@@ -16,7 +16,7 @@ from ..errors import InputError, path_text
 from .house import BLACK, BLUE, GPA, MM, MPA, digits, titled
 from .pages import Table
 
-# Units that headers have, plain (see _plain), with their factors to SI: they tell what a column holds.
+# Units that headers have, plain (see plain), with their factors to SI: they tell what a column holds.
 UNITS = {"strain": {"mm/m": 1e-3, "mm per m": 1e-3, "‰": 1e-3, "o/oo": 1e-3, "per mille": 1e-3, "permille": 1e-3, "promille": 1e-3,
                     "10-3": 1e-3, "%": 1e-2, "percent": 1e-2, "per cent": 1e-2, "microstrain": 1e-6, "um/m": 1e-6, "uε": 1e-6, "ue": 1e-6,
                     "ustrain": 1e-6, "10-6": 1e-6, "mm/mm": 1, "m/m": 1, "in/in": 1, "-": 1, "1": 1},
@@ -45,12 +45,12 @@ class _Column(namedtuple("Column", "index what factor header")):  # what: a key 
     @property
     def score(self):
         """How well its name fits what it holds, and the loaded axis."""
-        text = _plain(self.header)
+        text = plain(self.header)
         return 2 * bool(re.search(_NAMES[self.what], text)) + bool(re.search(_ALONG, text))
 
 
 # ---- headers
-def _plain(text):
+def plain(text):
     """Small letters without superscripts, so that units of all typists are alike."""
     text = unicodedata.normalize("NFKC", text.replace("−", "-")).casefold().replace("μ", "u").replace("^", "").replace("**", "")
     return re.sub(r"\s+", " ", re.sub(r"\s*/\s*", "/", text)).strip()
@@ -58,7 +58,7 @@ def _plain(text):
 
 def unit_of(header):
     """(what, factor) of a header such as "Stress (MPa)", "Load kN", "strain [%]"; None where it has no unit."""
-    text = _plain(header)
+    text = plain(header)
     if re.fullmatch(r"(axial_)?strain_(platen|gauge)", text):  # as Platen writes it
         return "strain", 1.0
     for inside in reversed(re.findall(r"[\[({<]([^\])}>]*)[\])}>]", text)):
@@ -77,7 +77,7 @@ def _parse_columns(text):
     asked = {}
     for part in re.split(r",\s*(?=(?:strain|displacement|stress|load)(?:/[^=]*)?=)", text) if text else []:
         found = re.fullmatch(r"\s*(strain|displacement|stress|load)(?:/([^=]*))?=(.*\S)\s*", part)
-        unit = _plain(found[2]) if found and found[2] else None
+        unit = plain(found[2]) if found and found[2] else None
         if not found or (unit and unit not in UNITS[found[1]]):
             raise InputError(f"--columns = {text!r} is not understood at {part!r}. {_HOW}")
         asked["x" if found[1] in ("strain", "displacement") else "y"] = (found[1], unit, found[3].strip())
@@ -85,8 +85,8 @@ def _parse_columns(text):
 
 
 def _asked_column(heads, what, unit, name):
-    index = int(name) - 1 if name.isdigit() else min(((_plain(head) != _plain(name), k) for k, head in enumerate(heads)
-                                                      if _plain(head).startswith(_plain(name))), default=(0, -1))[1]
+    index = int(name) - 1 if name.isdigit() else min(((plain(head) != plain(name), k) for k, head in enumerate(heads)
+                                                      if plain(head).startswith(plain(name))), default=(0, -1))[1]
     head = heads[index] if 0 <= index < len(heads) else ""
     found = (what, UNITS[what][unit]) if unit else unit_of(head)
     return _Column(index, *found, head or name) if index >= 0 and found and found[0] == what else None
@@ -94,7 +94,7 @@ def _asked_column(heads, what, unit, name):
 
 def _choose(heads, asked):
     """(x, y, others): the _Columns of a header, and further ones that would do as well; None where it has not both."""
-    known = [_Column(k, *unit, head) for k, head in enumerate(heads) if (unit := unit_of(head)) and not re.search(_OTHER, _plain(head))]
+    known = [_Column(k, *unit, head) for k, head in enumerate(heads) if (unit := unit_of(head)) and not re.search(_OTHER, plain(head))]
     chosen, others = [], []
     for axis, kinds in (("x", ("strain", "displacement")), ("y", ("stress", "load"))):
         fits = sorted((c for c in known if c.what in kinds), key=lambda c: (-c.score, kinds.index(c.what), c.index))
@@ -106,13 +106,13 @@ def _choose(heads, asked):
 
 
 # ---- files
-def _number(cell, decimal):
+def number_of(cell, decimal):
     text = cell.replace("−", "-").translate({ord(c): None for c in " \u00a0\u202f'" + (",.".replace(decimal, ""))}).replace(",", ".")
     return float(text) if re.fullmatch(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", text) else math.nan
 
 
-def _rows(path):
-    """(rows of cells, decimal mark) of a file, its separator found by trial."""
+def lines_of(path, comments=True):
+    """Lines of a file of any coding. comments: those that a # begins are lines without it, else empty."""
     try:
         data = Path(path_text(path, "path")).read_bytes()
         text = data.decode("utf-16" if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig")
@@ -120,14 +120,19 @@ def _rows(path):
         raise InputError(f"{path}: cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
         text = data.decode("cp1252", "replace")
-    lines = [re.sub(r"^\s*(#|//|!|%\s+(?=\w))+\s*", "", line) for line in text.replace("\0", "").splitlines()]
-    tried = []
+    marked = r"^\s*(#|//|!|%\s+(?=\w))+\s*" + ("" if comments else ".*")
+    return [re.sub(marked, "", line) for line in text.replace("\0", "").splitlines()]
+
+
+def _rows(path):
+    """(rows of cells, decimal mark) of a file, its separator found by trial."""
+    lines, tried = lines_of(path), []
     for separator in "\t;,":
         some = list(csv.reader(lines[:_POINTS], delimiter=separator))
         cells = [cell.strip() for row in some for cell in row]
         commas, dots = (sum(bool(re.fullmatch(rf"[-+ \d'.,]*\{mark}\d+([eE][-+]?\d+)?", cell)) for cell in cells) for mark in ",.")
         decimal = "," if commas > dots else "."
-        counts = [[not math.isnan(_number(cell, decimal)) for cell in row if cell.strip()] for row in some]
+        counts = [[not math.isnan(number_of(cell, decimal)) for cell in row if cell.strip()] for row in some]
         worth = (sum(len(row) > 1 and all(row) for row in counts), sum(sum(row) > 1 for row in counts))
         tried.append((worth, separator, decimal))
     _, separator, decimal = max(tried, key=lambda one: one[0])
@@ -138,7 +143,7 @@ def _with_units(cells):
     """Cells of "Displacement, mm,Load kN" where a comma is the separator too."""
     joined = []
     for cell in cells:
-        if joined and _plain(cell) in _OF_UNIT and unit_of(joined[-1]) is None:
+        if joined and plain(cell) in _OF_UNIT and unit_of(joined[-1]) is None:
             joined[-1] += "," + cell
         else:
             joined.append(cell)
@@ -159,11 +164,11 @@ def _find(path, asked, columns):
             if found is None:
                 continue
             both = [column.index for column in found[:2]]
-            data = numpy.array([[_number(row[n], decimal) for n in both] for row in rows[first:] if len(row) > max(both)]).reshape(-1, 2)
+            data = numpy.array([[number_of(row[n], decimal) for n in both] for row in rows[first:] if len(row) > max(both)]).reshape(-1, 2)
             there = numpy.isfinite(data).all(1)
             if there.sum() > 2:
                 return (*found, data[there], int((~there[there.argmax():]).sum()))
-    numbers = [sum(not math.isnan(_number(cell, decimal)) for cell in row) for row in rows]
+    numbers = [sum(not math.isnan(number_of(cell, decimal)) for cell in row) for row in rows]
     data = next((k for k, count in enumerate(numbers) if count > 1), None)
     if data is None:
         raise InputError(f"{path}: no rows with two numbers between comma, semicolon or tab")

@@ -26,7 +26,8 @@ OPTIONS = (
      "Further output folders in the same charts and tables: runs, or studies"),
     ("-o,--output", {"metavar": "DIR"}, "Folder for pictures and page [FOLDER/pictures]"),
     ("--pictures", {"metavar": "FORMS", "default": ""}, "Further files of each chart: pdf, svg, or pdf,svg"),
-    ("--laboratory", {"metavar": "FILE"}, "A measured curve (CSV as a laboratory writes it), drawn with that of the run, with differences"),
+    ("--laboratory", {"metavar": "FILE"}, "A measured curve (CSV as a laboratory writes it), drawn with that of the run, with differences; of a study "
+     "a list of measured figures by case"),
     ("--columns", {"metavar": "NAMES"}, "Columns of that file where its header does not name them: \"strain=A,stress=B\""),
     ("--curve", {"metavar": "FILE"}, "Write that curve as platen-calibrate reads it (Calibrate/Curve 1); draws nothing. FOLDER may be left "
      "out where the file has strains and stresses"),

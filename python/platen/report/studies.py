@@ -267,7 +267,7 @@ def _failed(said):
     return [f"{said[key]} of {said['runs']} runs {what}: no mean contains them" for key, what in how if said.get(key, 0) > 0]
 
 
-def _reasons(folder, case, figure):
+def reasons(folder, case, figure):
     """Why a figure of a case does not count, from the summaries of its runs; "" where they say nothing."""
     said = [Results(path).info.get("validity") for path in sorted((folder / "runs").glob("*_seed_*"))
             if path.name.rpartition("_seed_")[0] == case]
@@ -291,7 +291,7 @@ def _verdicts(study):
                            "its strength is not compared")
         lost = f"{case.runs - case.packings} of {case.runs} runs failed" if case.packings < case.runs else ""
         for key in DRAWN if study.kind in PARAMETERS else DRAWN[:1]:
-            why = _reasons(study.folder, case.name, key) or lost if math.isnan(case.figures[key].mean) or case.without_peak else ""
+            why = reasons(study.folder, case.name, key) or lost if math.isnan(case.figures[key].mean) or case.without_peak else ""
             if why or math.isnan(case.figures[key].mean):
                 remarks.append(f"{case.name}: no {FIGURES[key][0].split(' (')[0].lower()}{', ' if why else ''}{why}; a gap in the picture")
     outside = sum(one["side"] != "" for one in judged)
