@@ -44,7 +44,7 @@ MORE = {
         "as a laboratory writes it: any header that names stress or load and strain or displacement with their units, comma, semicolon or tab, "
         "decimal comma, %, per mille, kN and mm. --curve writes it as platen-calibrate reads it.",
         "For a study --laboratory takes a list: columns case, figure, value, and as needed unit, deviation, over, curve, a row for each measured figure. "
-        "Figures agree within two scatters.",
+        "Figures agree within two scatters. --targets prints such a list as targets of platen-calibrate; its cases are then entries.",
         "--standard writes the test report by the standard that Scene/Standard names, FOLDER/pictures/test_report.html, for one or two sheets "
         "A4; what a simulation cannot know is left open by name.",
     ],

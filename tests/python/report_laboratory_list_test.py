@@ -1,6 +1,9 @@
-"""A laboratory's list: read as it is written, beside a study by one rule, and what is refused."""
+"""A laboratory's list: read as it is written, beside a study by one rule, as targets that platen-calibrate takes, and what is refused."""
 import json
 import math
+import os
+import subprocess
+from pathlib import Path
 from unittest import mock
 
 import numpy
@@ -11,6 +14,7 @@ from report_studies_test import case, parameters
 from platen.errors import InputError
 from platen.report import house, laboratory_list, laboratory_study, studies
 
+BUILD, SOURCE = Path(os.environ["PLATEN_BUILD"]), Path(os.environ["PLATEN_SOURCE"])
 NAN = math.nan
 # Of each case by seed: strength, strain at the peak, half-angle.
 MEASURED = {"pressure_0_mpa": [(40e6, 2e-3, NAN), (44e6, 2.2e-3, NAN), (48e6, 2.4e-3, NAN)],
@@ -212,4 +216,47 @@ class Beside(List):
         self.refused("--laboratory is for one study alone", study, "--laboratory", path, "--compare", study)
         path = self.write("pressure_0_mpa;strength_pa;2;MPa\n")
         self.refused("--columns = 'strain=1' has no effect", study, "--laboratory", path, "--columns", "strain=1")
+        self.refused("--targets prints a list and draws nothing", path, "--targets", "-o", self.folder / "new")
         self.assertFalse((study / "pictures").exists())
+
+
+class Targets(List):
+    def test_targets_have_entries_values_and_tolerances_in_the_grammar_of_calibrate(self):
+        text = laboratory_list.targets(self.write(
+            f";strength_pa;40;MPa;3 %\n{NINE}, Loading/Target  strain=0.02;strength_pa;81,2;MPa;1,8\n{NINE};strength_pa;2,05;;0,0205;{ZERO}\n"
+            f"{NINE};strain_at_peak_platen;5,5;mm/m\n;young modulus;25 GPa\n"))
+        self.assertEqual(text.splitlines(), [
+            "subsection Calibrate", "  set Target 1 = strength_pa: 40 MPa +- 1.2 MPa",
+            f"  set Target 2 = strength_pa at {NINE}, Loading/Target strain = 0.02: 81.2 MPa +- 1.8 MPa",
+            f"  set Target 3 = strength_pa at {NINE} over {ZERO}: 2.05 +- 1 %",
+            f"  set Target 4 = strain_at_peak_platen at {NINE}: 0.0055", "  set Target 5 = young modulus: 25000 MPa", "end"])
+
+    def test_calibrate_takes_what_is_printed(self):
+        path = self.write(f"Platens/Friction static = 0.4;strength_pa;21;MPa;1\n{NINE};strength_pa;58,5;MPa;1,5\n{NINE};strength_pa;2,7;;0,1;{ZERO}\n"
+                          ";young modulus;11,5 GPa;;3 %\n")
+        status, out, err = call(path, "--targets")
+        self.assertEqual((status, err), (0, ""))
+        (self.folder / "targets.prm").write_text(out)
+        scene = self.folder / "scene.prm"
+        scene.write_text(f"include {SOURCE}/tests/apps/scenes/crushed.prm\ninclude targets.prm\nsubsection Loading\n  set Confinement = particles\n"
+                         "  set Confining pressure = 0 MPa\nend\nsubsection Calibrate\n  set Mode = search\nend\n")
+        read = subprocess.run([str(BUILD / "apps/platen-calibrate"), str(scene), "--dry-run"], capture_output=True, text=True)
+        self.assertEqual(read.returncode, 0, read.stderr)
+        for line in (f"strength_pa at {NINE}: 58.5 MPa +- 1.5 MPa (tolerance 2.56 %)",
+                     f"strength_pa at {NINE} over {ZERO}: 2.7 +- 3.704 % (tolerance 3.7 %)",
+                     "strength_pa at Platens/Friction static = 0.4: 21 MPa +- 1 MPa (tolerance 4.76 %)",
+                     "young modulus: 11500 MPa +- 345 MPa (tolerance 3 %)"):
+            self.assertIn(line, read.stdout)
+
+    def test_what_is_no_target_is_refused(self):
+        many = "".join(f"Contact/Friction = 0.{k};strength_pa;2;MPa\n" for k in range(10, 31))
+        for text, words in (
+                ("confining_pressure_9_mpa;strength_pa;2;MPa", 'mine.csv:2: case = .* cannot be turned into entries. Allowed: "Section/Key = value'),
+                (f"{NINE};strength_pa;2;;;dry", "over = 'dry' cannot be turned into entries"),
+                ("A/B = a: b;strength_pa;2;MPa", "case = 'A/B = a: b' cannot"),
+                (f"{NINE};strength_pa;2;;;Platens/Friction static = 0", "over = .* does not set Loading/Confining pressure, which the case sets"),
+                (f"{NINE};strength_pa;-2;MPa", "value = '-2' is no target"), (f"{NINE};strength_pa;2;MPa;1,1", "deviation = '1,1' is no target"),
+                (f"{NINE};strength_pa;2;MPa\nLoading/Confining pressure = 9e3 kPa;strength_pa;3;MPa", "mine.csv:3: .*has strength_pa twice"),
+                (many, "mine.csv:22: figure = 'strength_pa' is one too many. Allowed: 20 targets")):
+            with self.assertRaisesRegex(InputError, words):
+                laboratory_list.targets(self.write(text + "\n"))

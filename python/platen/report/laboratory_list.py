@@ -1,4 +1,4 @@
-"""A laboratory's list of measured figures, as a person writes it.
+"""A laboratory's list of measured figures, as a person writes it; as targets of a calibration.
 
 rows = read("mine.csv")   # SI; a row is case, figure, value, unit, deviation, over, curve
 """
@@ -9,14 +9,17 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ..errors import InputError
+from .house import MPA
 from .laboratory import UNITS, lines_of, number_of, plain
 from .run import number_with_unit
 from .words import ENDINGS
 
 COLUMNS = ("case", "figure", "value", "unit", "deviation", "over", "curve")
-# Units, plain, by the SI unit that they have a factor to.
+# Figures of a calibration that are no keys of summary.json; units, plain, by the SI unit that they have a factor to.
+_SI = {"young modulus": "Pa", "tension": "Pa", "splitting": "Pa"}
 _UNITS = {"Pa": UNITS["stress"], "1": UNITS["strain"], "m": UNITS["displacement"], "N": UNITS["load"],
           "degrees": dict.fromkeys(("degree", "degrees", "deg", "°"), 1), "J/m2": {"j/m2": 1, "n/m": 1, "n/mm": 1e3}}
+MOST_TARGETS = 20
 
 
 class Row(NamedTuple):
@@ -32,6 +35,7 @@ class Row(NamedTuple):
     refuse: object
 
 
+# ---- the file
 def _entries(text):
     """[("Section/Key", "value"), ...] of "Section/Key = value, Section/Key = value"; [] where it is something else."""
     found = [re.fullmatch(r"([^=]*\w/\w[^=]*?) ?= ?(.*)", one) for one in re.split(r" ?, ?(?=[^,=]+/[^,=]+=)", " ".join(text.split()))]
@@ -74,7 +78,7 @@ def _row(cells, heads, decimal, refuse, folder):
     figure, over, curve, numbers = cells["figure"], cells["over"], None, []
     if not figure:
         refuse("figure", "is empty. Allowed: a number of summary.json, as strength_pa")
-    si = "1" if over else next((unit for ending, unit in ENDINGS if figure.endswith(ending)), "1")
+    si = "1" if over else _SI.get(figure) or next((unit for ending, unit in ENDINGS if figure.endswith(ending)), "1")
     units = _UNITS.get(si, {si.casefold(): 1})
     for column in ("value", "deviation") if cells["deviation"] else ("value",):
         number, unit = _quantity(cells[column], decimal)
@@ -123,3 +127,30 @@ def once(rows, keys):
     for k, key in enumerate(keys):
         if key in keys[:k]:
             rows[k].refuse("case", f"has {rows[k].figure} twice. Allowed: one row for each case and figure")
+
+
+# ---- targets
+def targets(path):
+    """The list as a section Calibrate, as platen-calibrate reads it. InputError for what it does not take."""
+    rows, lines = read(path), []
+    if len(rows) > MOST_TARGETS:
+        rows[MOST_TARGETS].refuse("figure", f"is one too many. Allowed: {MOST_TARGETS} targets")
+    for number, row in enumerate(rows, 1):
+        for column, text in (("case", row.case), ("over", row.over)):
+            if text and (not _entries(text) or re.search(r"[:#\\]|\+-| at | over ", text)):
+                row.refuse(column, "cannot be turned into entries. Allowed: \"Section/Key = value, Section/Key = value\", as -s takes them")
+        at, over = (", ".join(" = ".join(one) for one in _entries(text)) for text in (row.case, row.over))
+        lost = [entry for entry, _ in _entries(row.case) if over and entry not in dict(_entries(row.over))]
+        if lost:
+            row.refuse("over", f"does not set {lost[0]}, which the case sets and a target keeps. Allowed: all entries of the case")
+        if not row.value > 0 or row.deviation > 0.5 * row.value:
+            row.refuse("deviation" if row.value > 0 else "value", "is no target. Allowed: values above 0, deviations to half of the value")
+        factor, unit = (MPA, " MPa") if row.si == "Pa" else (1, "")
+        line = row.figure + (f" at {at}" if at else "") + (f" over {over}" if over else "") + f": {row.value * factor:.9g}{unit}"
+        if row.deviation > 0:  # of a number without a unit a tolerance is relative
+            line += f" +- {row.deviation * factor:.9g}{unit}" if unit else f" +- {100 * row.deviation / row.value:.4g} %"
+        lines.append(f"  set Target {number} = {line}\n")
+        if row.curve:
+            lines.append(f"  # {row.curve.name} is no target: --laboratory {row.curve.name} --curve NEW makes it one\n")
+    once(rows, [(row.figure, alike(row.case), alike(row.over)) for row in rows])
+    return f"subsection Calibrate\n{''.join(lines)}end\n"

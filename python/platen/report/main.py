@@ -31,6 +31,7 @@ OPTIONS = (
     ("--columns", {"metavar": "NAMES"}, "Columns of that file where its header does not name them: \"strain=A,stress=B\""),
     ("--curve", {"metavar": "FILE"}, "Write that curve as platen-calibrate reads it (Calibrate/Curve 1); draws nothing. FOLDER may be left "
      "out where the file has strains and stresses"),
+    ("--targets", FLAG, "Print such a list, FOLDER, as targets of platen-calibrate (a section Calibrate); draws nothing"),
     ("--standard", FLAG, "Write test_report.html instead: the test report by the standard that Scene/Standard names, for two A4 sheets"),
     ("--fields", FLAG, "Also write stress, strain, displacement and damage of all frames on one grid: "
      "fields.pvd for ParaView, into FOLDER"),
@@ -118,6 +119,12 @@ def main(arguments=None):
             return DONE
         if not options.folder:
             raise InputError("no folder is given. See --help")
+        if options.targets:
+            from .laboratory_list import targets
+            if options.output or options.laboratory or options.compare or options.pictures or options.standard or options.fields:
+                raise InputError("--targets prints a list and draws nothing. Allowed: without options of pages")
+            print(targets(options.folder), end="")
+            return DONE
         if options.state or options.state_diff:
             listed = _platen("state", options.folder) if options.state else DONE
             return listed or (_platen("state", options.folder, options.state_diff) if options.state_diff else DONE)
