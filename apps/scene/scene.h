@@ -33,7 +33,7 @@ struct Output {
   Interval every;        // rows of history.csv; none: the app chooses
   Interval fields_every; // frames of the .pvd series; none: the app chooses
   bool fields = true;
-  double sound_share = 0.7; // of its bonds, that a sphere of an intact piece has kept
+  double sound_share = 0.7;   // of its bonds, that a sphere of an intact piece has kept
   double crack_roughness = 1; // what a rough crack lets through over a smooth one
   double event_reach = 5,
          event_time = 1; // of acoustic events: mean radii; times that a wave takes over that reach
