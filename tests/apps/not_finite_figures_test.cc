@@ -97,7 +97,8 @@ protected:
   static std::set<std::string> changed(const Json &a, const Json &b) {
     std::set<std::string> keys;
     const std::set<std::string> others{"validity",     "peak_memory_bytes",  "acoustic",
-                                       "crack_planes", "final_crack_planes", "pattern_reasons"};
+                                       "crack_planes", "final_crack_planes", "pattern_reasons",
+                                       "crack_widths"};
     for (const auto &[key, value] : a.items())
       if (others.count(key) == 0 && value != b.at(key)) keys.insert(key);
     return keys;
