@@ -226,11 +226,13 @@ TEST(rigid_seat, friction_holds_it_until_the_load_lies_farther_than_its_arm) {
   for (const double arm : {1.001 * e, 0.999 * e, 0.4 * e, 0.0}) {
     RigidBody body(make_grid(BoxPlate{{-a / 2, -b / 2, 0}, {a / 2, b / 2, c}, {2, 2, 1}}), steel, Vector3{},
                    arm);
-    const auto press = [&] { // half on each corner of x = a/2
+    std::vector<int> loaded; // the corners of x = a/2
+    for (const int v : lower_corners(body))
+      if (body.surface().vertices[static_cast<std::size_t>(v)].x > 0) loaded.push_back(v);
+    const auto press = [&] {
       body.clear_loads();
-      for (const int v : lower_corners(body))
-        if (body.surface().vertices[static_cast<std::size_t>(v)].x > 0)
-          body.add_surface_force(v, {0, 0, 0.5 * load});
+      for (const int v : loaded)
+        body.add_surface_force(v, {0, 0, 0.5 * load});
     };
     constexpr int steps = 50;
     press();
@@ -258,9 +260,10 @@ TEST(rigid_seat, friction_stops_a_turning_plate_and_takes_all_of_its_energy) {
   body.set_velocity({}, {0, 0, speed}); // about the axis of the load: nothing else turns it
   const double whole = 0.5 * inertia_z * speed * speed;
   EXPECT_NEAR(body.energy_balance().kinetic / whole, 1, 1e-12);
+  const std::vector<int> corners = lower_corners(body);
   const auto press = [&] {
     body.clear_loads();
-    for (const int v : lower_corners(body))
+    for (const int v : corners)
       body.add_surface_force(v, {0, 0, 0.25 * load});
   };
   press();
