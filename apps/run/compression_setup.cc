@@ -144,7 +144,10 @@ void CompressionRun::set_up(const dem::Specimen &specimen, const FileMarks &mark
 
 // Of the newest checkpoint, if the files that the test is made from are still those of it.
 FileMarks CompressionRun::marks_of_checkpoint() {
-  FileMarks marks = load_marks(CheckpointReader(newest_whole_checkpoint(paths_.checkpoints()).path));
+  const CheckpointReader checkpoint(newest_whole_checkpoint(paths_.checkpoints()).path);
+  FileMarks marks = load_marks(checkpoint);
+  if (marks.history_bytes == 0)
+    checkpoint.fail("\"files/history_bytes\" is 0: a table has its header at least");
   if (!marks.changes.empty())
     throw CheckpointError(
         paths_.checkpoints().string() +

@@ -9,8 +9,7 @@ namespace platen::apps {
 void FileMarks::describe(Archive &archive) {
   const int version = archive.version(5);
   archive("cracks_bytes", cracks_bytes);
-  if (version != 2) // the second left it out; a table has its header at least
-    archive("history_bytes", history_bytes, "1", at_least(1));
+  if (version != 2) archive("history_bytes", history_bytes); // which the second left out
   if (version >= 3) { // the third and the fourth have sums of the tables too
     archive.text("specimen_sum", specimen_sum);
     archive.text("input_sums", input_sums);
