@@ -2,18 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "base/largest.h"
 #include "base/pi.h"
 #include "dem/cell_grid.h"
+#include "dem/measure/cracks.h"
 #include "dem/measure/damage.h"
 #include "dem/measure/fragments.h"
 
 namespace platen::dem {
 namespace {
-
-constexpr double reach_of_cracks = 2.5; // mean radii, as CrackPlaneRules
 
 double larger(const std::vector<double> &largest, std::size_t record, double value) {
   Largest of_both;
@@ -174,6 +174,32 @@ double area_factor(const Particles &p, const Bonds &b, const BondLayout &layout,
   return sum > 0 ? 3 * (has_core ? core : whole).volume() / sum : 0;
 }
 
+namespace {
+
+// What leads through along each axis, and what flows there.
+void find_ways(CrackWidths &w, const std::vector<Opening> &openings, const Particles &p, const Shape &shape,
+               const std::function<double(const Opening &)> &area) {
+  const double reach = CrackPlaneRules{}.reach * mean_radius(p);
+  const Joined joined = joined_by_width(openings, reach);
+  const BoundingBox box = bounding_box(shape);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!is_crossed(shape, axis)) continue;
+    const auto at = static_cast<std::size_t>(axis);
+    const Through found =
+        through_along(joined, axis, along(box.low, axis) + reach, along(box.high, axis) - reach);
+    if (found.width > 0) w.through[at] = found.width;
+    w.permeability[at] = 0;
+    for (std::size_t k = 0; k < joined.facets.size(); ++k) {
+      if (!found.leads[k]) continue;
+      const Opening &o = joined.facets[k];
+      w.permeability[at] +=
+          area(o) * std::pow(o.opening, 3) * (1 - std::pow(along(o.normal, axis), 2)) / (12 * shape.volume());
+    }
+  }
+}
+
+} // namespace
+
 CrackWidths crack_widths(const std::vector<Opening> &openings, const Particles &p, const Bonds &b,
                          const BondLayout &layout, const Shape &shape, double roughness) {
   const double factor = area_factor(p, b, layout, shape);
@@ -195,26 +221,16 @@ CrackWidths crack_widths(const std::vector<Opening> &openings, const Particles &
   }
   for (double &share : w.wider)
     share = all > 0 ? share / all : CrackWidths::none;
-  if (!(largest.value() <= 0)) w.largest = largest.value(); // NaN where one is
-  if (open > 0) w.mean = w.volume / open;
-
-  const double reach = reach_of_cracks * mean_radius(p);
-  const Joined joined = joined_by_width(openings, reach);
-  const BoundingBox box = bounding_box(shape);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!is_crossed(shape, axis)) continue;
-    const auto at = static_cast<std::size_t>(axis);
-    const Through found =
-        through_along(joined, axis, along(box.low, axis) + reach, along(box.high, axis) - reach);
-    if (found.width > 0) w.through[at] = found.width;
-    w.permeability[at] = 0;
-    for (std::size_t k = 0; k < joined.facets.size(); ++k) {
-      if (!found.leads[k]) continue;
-      const Opening &o = joined.facets[k];
-      w.permeability[at] += roughness * area(o) * std::pow(o.opening, 3) *
-                            (1 - std::pow(along(o.normal, axis), 2)) / (12 * shape.volume());
-    }
+  if (!openings.empty() && !std::isfinite(largest.value())) { // then nothing is known of all together
+    w.open = w.volume = CrackWidths::none;
+    w.wider.fill(CrackWidths::none);
+    return w;
   }
+  if (largest.value() > 0) w.largest = largest.value();
+  if (open > 0) w.mean = w.volume / open;
+  find_ways(w, openings, p, shape, area);
+  for (double &k : w.permeability)
+    k *= roughness;
   return w;
 }
 

@@ -216,6 +216,16 @@ TEST_F(OpenedLattice, the_largest_openings_are_kept) {
   EXPECT_TRUE(std::isnan(largest.opening(now))); // from then on
 }
 
+TEST_F(OpenedLattice, one_opening_that_is_not_finite_leaves_no_figure) {
+  part(4, {0, 0, width});
+  model_.particles.position[static_cast<std::size_t>(model_.bonds->record_second[found().back().record])].z =
+      std::numeric_limits<double>::quiet_NaN();
+  const CrackWidths w = widths();
+  for (const double figure : {w.open, w.largest, w.mean, w.volume, w.wider[0], w.wider[2], w.through[0],
+                              w.permeability[0], w.permeability[2]})
+    EXPECT_TRUE(std::isnan(figure));
+}
+
 // In a packing the projected areas of the bonds that a plane cuts sum up to the plane's on the mean.
 TEST(openings, facets_stand_for_the_area_of_planes) {
   const Specimen specimen = packed_box(24, 24, 24);
