@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "base/portable.h"
+#include "fem/materials/logarithmic_strain.h"
 
 namespace platen::fem {
 
@@ -27,6 +28,27 @@ TensorAtPoints deformation_gradient(const ReferenceCell &cell, const Corners &di
 
 Tensor tensor_at(const TensorAtPoints &f, std::size_t q) {
   return {f[0][q], f[1][q], f[2][q], f[3][q], f[4][q], f[5][q], f[6][q], f[7][q], f[8][q]};
+}
+
+// F times the metric, for the elastic left Cauchy-Green tensor.
+Tensor times_metric(const Tensor &f, const PlasticPoints &points, std::size_t q) {
+  Tensor product{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t l = 0; l < 3; ++l)
+        product[3 * i + k] +=
+            f[3 * i + l] * points.metric[static_cast<std::size_t>(symmetric_index[l][k])][q];
+  return product;
+}
+
+Symmetric<double> elastic_left_tensor(const Tensor &f, const PlasticPoints &points, std::size_t q) {
+  const Tensor fm = times_metric(f, points, q);
+  Symmetric<double> b;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = i; k < 3; ++k)
+      b[symmetric_index[i][k]] =
+          fm[3 * i] * f[3 * k] + fm[3 * i + 1] * f[3 * k + 1] + fm[3 * i + 2] * f[3 * k + 2];
+  return b;
 }
 
 // All points of a deformed cell.
@@ -67,7 +89,8 @@ std::array<double, 8> corner_volumes(const Corners &x) {
   return volumes;
 }
 
-CellStiffness cell_stiffness(const NeoHookean &law, const ReferenceCell &cell, const Corners &displacement) {
+CellStiffness cell_stiffness(const NeoHookean &law, const ReferenceCell &cell, const Corners &displacement,
+                             const PlasticPoints *yielded) {
   const Deformed at(cell, displacement);
   const double ratio = at.volume / cell.volume, along = law.volume_stress(ratio);
   CellStiffness k{};
@@ -75,17 +98,32 @@ CellStiffness cell_stiffness(const NeoHookean &law, const ReferenceCell &cell, c
   for (std::size_t q = 0; q < 8; ++q) {
     const double w = cell.weight[q], j = at.j[q], shape = w * law.shape_factor(j);
     const Tensor f = tensor_at(at.f, q), cof = tensor_at(at.cof, q);
-    const double third = squared_norm(f) / 3, push = w * along * j, back = shape * third - push;
-    Corners reference, g, h; // gradient in reference and current position; F times the first
+    const Tensor fm = yielded ? times_metric(f, *yielded, q) : f;
+    double third = squared_norm(f) / 3;
+    if (yielded) {
+      const Symmetric<double> b = elastic_left_tensor(f, *yielded, q);
+      third = (b[0] + b[1] + b[2]) / 3;
+    }
+    const double push = w * along * j, back = shape * third - push;
+    Corners reference, g, h; // gradient in reference and current position; F (times M) times the first
+    Corners to_metric;       // M times the first
     for (std::size_t a = 0; a < 8; ++a) {
       reference[a] = cell.gradient_at(q, a);
+      to_metric[a] = reference[a];
+      if (yielded)
+        for (int i = 0; i < 3; ++i) {
+          to_metric[a][i] = 0;
+          for (int l = 0; l < 3; ++l)
+            to_metric[a][i] +=
+                yielded->metric[static_cast<std::size_t>(symmetric_index[i][l])][q] * reference[a][l];
+        }
       g[a] = (1 / j) * (cof * reference[a]);
-      h[a] = f * reference[a];
+      h[a] = fm * reference[a];
       swelling[a] = swelling[a] + w * j * g[a];
     }
     for (std::size_t a = 0; a < 8; ++a)
       for (std::size_t b = 0; b < 8; ++b) {
-        const double direct = shape * dot(reference[a], reference[b]);
+        const double direct = shape * dot(reference[a], to_metric[b]);
         for (std::size_t i = 0; i < 3; ++i) {
           double *row = &k[24 * (3 * a + i) + 3 * b];
           row[i] += direct;
@@ -117,6 +155,34 @@ CellStress cell_stress(const NeoHookean &law, const ReferenceCell &cell, const C
   for (std::size_t i = 0; i < 3; ++i)
     result.cauchy[4 * i] += law.volume_stress(result.volume_ratio);
   return result;
+}
+
+CellStress cell_stress(const NeoHookean &law, const ReferenceCell &cell, const Corners &displacement,
+                       const PlasticPoints &points) {
+  const Deformed at(cell, displacement);
+  CellStress result;
+  result.volume_ratio = at.volume / cell.volume;
+  for (std::size_t q = 0; q < 8; ++q) {
+    Symmetric<double> b = elastic_left_tensor(tensor_at(at.f, q), points, q), e;
+    const double root = std::cbrt(at.j[q]), factor = 2 * law.shear_modulus * cell.weight[q] / at.volume;
+    for (double &x : b.of)
+      x /= root * root;
+    half_logarithm(b, e);
+    const double third = (e[0] + e[1] + e[2]) / 3;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        result.cauchy[3 * i + k] += factor * (e[symmetric_index[i][k]] - (i == k ? third : 0.0));
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+    result.cauchy[4 * i] += law.volume_stress(result.volume_ratio);
+  return result;
+}
+
+double plastic_work(const J2Plasticity &plastic, const ReferenceCell &cell, const PlasticPoints &points) {
+  double work = 0;
+  for (std::size_t q = 0; q < 8; ++q)
+    work += cell.weight[q] * plastic.hardening.at(points.plastic_strain[q]).work;
+  return work;
 }
 
 double eigenvalue_bound(const CellStiffness &stiffness, const std::array<double, 8> &mass) {

@@ -5,12 +5,17 @@
 // with v the exact volume of the trilinear cell (two Gauss points per axis integrate its Jacobian exactly).
 // Forces and stiffness are the exact first and second derivatives, so energy balances in any scheme and the
 // tangent is symmetric. Plain arrays, no deal.II, no allocation.
+//
+// The same hexahedron of a metal that yields: shape by its elastic logarithmic strain e and von Mises' law
+// (j2_plasticity.h), sum_q w_q mu e_q:e_q, volume as above. Each point remembers the metric M, the inverse of
+// the plastic right Cauchy-Green tensor, so that F M F^T is the elastic left one, and its plastic strain.
 #pragma once
 
 #include <array>
 #include <cstddef>
 
 #include "base/vector3.h"
+#include "fem/materials/j2_plasticity.h"
 #include "fem/materials/neo_hookean.h"
 
 namespace platen::fem {
@@ -34,6 +39,14 @@ struct ReferenceCell {
   }
 };
 
+// What the points of a cell of metal remember.
+struct PlasticPoints {
+  std::array<AtPoints, 6> metric{}; // 1; xx, yy, zz, yz, zx, xy; of determinant 1
+  AtPoints plastic_strain{};        // 1, equivalent
+
+  PlasticPoints() { metric[0].fill(1), metric[1].fill(1), metric[2].fill(1); }
+};
+
 struct CellForce {
   Corners force{};   // N, derivative of the stored energy by the corners' positions
   double energy = 0; // J
@@ -50,7 +63,13 @@ std::array<double, 8> corner_volumes(const Corners &place);
 double smallest_volume_ratio(const ReferenceCell &cell, const Corners &displacement, const Corners &place);
 
 CellForce cell_force(const NeoHookean &law, const ReferenceCell &cell, const Corners &displacement);
-CellStiffness cell_stiffness(const NeoHookean &law, const ReferenceCell &cell, const Corners &displacement);
+// Of metal, from the memory before the step; writes the one after it. `law`: elastic constants.
+CellForce cell_force(const NeoHookean &law, const J2Plasticity &plastic, const ReferenceCell &cell,
+                     const Corners &displacement, const PlasticPoints &before, PlasticPoints &after);
+// `yielded`: of metal, the stiffness of its elastic strain, to the first order in that strain: an upper bound
+// while it yields.
+CellStiffness cell_stiffness(const NeoHookean &law, const ReferenceCell &cell, const Corners &displacement,
+                             const PlasticPoints *yielded = nullptr);
 
 // Mean over the cell, weighted by current volume.
 struct CellStress {
@@ -58,6 +77,10 @@ struct CellStress {
   double volume_ratio = 1; // v/V
 };
 CellStress cell_stress(const NeoHookean &law, const ReferenceCell &cell, const Corners &displacement);
+CellStress cell_stress(const NeoHookean &law, const ReferenceCell &cell, const Corners &displacement,
+                       const PlasticPoints &points);
+// J, lost since the start: the integral of the flow stress over the plastic strain.
+double plastic_work(const J2Plasticity &plastic, const ReferenceCell &cell, const PlasticPoints &points);
 
 // Upper bound of the eigenvalues of M^-1 K (1/s^2), M the diagonal of the corners' masses (kg): the 16th root
 // of the trace of the 16th power, at most 24^(1/16) = 1.22 times the largest.

@@ -132,7 +132,8 @@ void HyperelasticSolid::check(const std::vector<Vector3> &displacement) const {
 }
 
 CellStiffness HyperelasticSolid::total_stiffness(std::size_t cell) const {
-  CellStiffness k = cell_stiffness(material_.law, mesh_.cells[cell], mesh_.gather(cell, displacement_));
+  CellStiffness k = cell_stiffness(material_.law, mesh_.cells[cell], mesh_.gather(cell, displacement_),
+                                   plastic_ ? &after_[cell] : nullptr);
   for (std::size_t f = first_face_[cell]; f < first_face_[cell + 1]; ++f) {
     if (face_pressure_[f] == 0) continue;
     const BoundaryFace &face = mesh_.faces[f];

@@ -10,7 +10,7 @@
 
 namespace platen::fem {
 
-HyperelasticSolid::HyperelasticSolid(const Grid &grid, const Rubber &material,
+HyperelasticSolid::HyperelasticSolid(const Grid &grid, const SolidMaterial &material,
                                      const std::vector<int> &contact_tags)
     : material_(material), mesh_(read_mesh(grid)) {
   require(material.density > 0 && std::isfinite(material.density), "solid: density must be positive");
@@ -39,6 +39,12 @@ HyperelasticSolid::HyperelasticSolid(const Grid &grid, const Rubber &material,
   face_pressure_.assign(mesh_.faces.size(), 0.0);
   acting_ = face_pressure_;
   cell_force_.resize(mesh_.cells.size());
+  if (material.hardening) {
+    material.hardening->require_valid();
+    plastic_ = J2Plasticity{material_.law.shear_modulus, *material.hardening};
+    before_.resize(mesh_.cells.size());
+    after_ = before_;
+  }
   lay_out_stiffness();
 }
 
@@ -196,7 +202,12 @@ void HyperelasticSolid::drift(double dt, bool looked) {
                         ? pressure_work_to(next_, face_pressure_)
                         : 0.5 * (pressure_work_to(next_, acting_) + pressure_work_to(next_, face_pressure_));
   std::swap(displacement_, next_);
+  yield_here();
   place_surface();
+}
+
+void HyperelasticSolid::yield_here() {
+  before_ = after_;
 }
 
 // Each cell's forces are stored separately; each node then adds the forces of its cells, in order.
@@ -204,7 +215,10 @@ void HyperelasticSolid::update_forces() {
   for_each(
       mesh_.cells.size(),
       [&](std::size_t c) {
-        cell_force_[c] = cell_force(material_.law, mesh_.cells[c], mesh_.gather(c, displacement_));
+        const Corners own = mesh_.gather(c, displacement_);
+        cell_force_[c] =
+            plastic_ ? cell_force(material_.law, *plastic_, mesh_.cells[c], own, before_[c], after_[c])
+                     : cell_force(material_.law, mesh_.cells[c], own);
       },
       cell_grain);
   for_each(internal_.size(), [&](std::size_t n) {
@@ -231,6 +245,24 @@ double HyperelasticSolid::internal_energy() const {
   return energy;
 }
 
+double HyperelasticSolid::plastic_work() const {
+  double work = 0;
+  for (std::size_t c = 0; c < after_.size(); ++c)
+    work += fem::plastic_work(*plastic_, mesh_.cells[c], after_[c]);
+  return work;
+}
+
+std::vector<double> HyperelasticSolid::plastic_strains() const {
+  std::vector<double> strains;
+  for (const PlasticPoints &points : after_) {
+    double sum = 0;
+    for (const double strain : points.plastic_strain)
+      sum += strain;
+    strains.push_back(0.125 * sum);
+  }
+  return strains;
+}
+
 void HyperelasticSolid::set_displacement(const std::vector<Vector3> &displacement) {
   require(displacement.size() == displacement_.size(), "solid: one displacement per node is needed");
   check(displacement);
@@ -255,7 +287,27 @@ void HyperelasticSolid::describe(Archive &archive) {
   archive.same_rows("node_displacement", displacement_, "m");
   archive.same_rows("node_velocity", velocity_, "m/s");
   describe_loads(archive);
+  if (plastic_) describe_yielding(archive);
   if (archive.reads()) follow_state();
+}
+
+// From the memory before the last forces these are computed again to the bit.
+void HyperelasticSolid::describe_yielding(Archive &archive) {
+  for (std::size_t k = 0; k < 7; ++k) {
+    const auto column = [&](PlasticPoints &points) -> AtPoints & {
+      return k < 6 ? points.metric[k] : points.plastic_strain;
+    };
+    std::vector<double> values;
+    for (PlasticPoints &points : before_)
+      values.insert(values.end(), column(points).begin(), column(points).end());
+    static const std::array<const char *, 7> names = {
+        "plastic_metric_xx", "plastic_metric_yy", "plastic_metric_zz", "plastic_metric_yz",
+        "plastic_metric_zx", "plastic_metric_xy", "plastic_strain"};
+    archive.same_rows(names[k], values, "1", k < 3 ? above(0) : k < 6 ? any_number() : at_least(0));
+    if (archive.reads())
+      for (std::size_t n = 0; n < values.size(); ++n)
+        column(before_[n / 8])[n % 8] = values[n];
+  }
 }
 
 // Forces under the pressures of the last force computation.

@@ -1,4 +1,5 @@
-// A solid of rubber at finite strain: the sleeve around a specimen, or a block. Nodes carry mass and motion,
+// A solid at finite strain, of rubber or of metal that yields: the sleeve or the tube around a specimen, or a
+// block. Nodes carry mass and motion,
 // cells give the internal forces, faces of a tag carry a follower pressure (hyperelastic_cell.h), and one
 // part of the surface touches the particles, as a Body's does.
 //
@@ -11,6 +12,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -22,9 +24,10 @@
 
 namespace platen::fem {
 
-struct Rubber {
+struct SolidMaterial {
   double density; // kg/m^3, positive
   NeoHookean law;
+  std::optional<Hardening> hardening{}; // of metal; none: it does not yield
 };
 
 // Thrown before an inverted element is used; the text gives cell, position, volume ratio and load.
@@ -41,9 +44,10 @@ public:
   // `contact_tags`: the part of the surface that touches the particles (inner_tag for a sleeve: its outer
   // face then has no contacts); empty for all of it. Throws std::invalid_argument where a constant is out of
   // range, a cell is folded or a tag has no faces.
-  HyperelasticSolid(const Grid &grid, const Rubber &material, const std::vector<int> &contact_tags = {});
+  HyperelasticSolid(const Grid &grid, const SolidMaterial &material,
+                    const std::vector<int> &contact_tags = {});
 
-  const Rubber &material() const { return material_; }
+  const SolidMaterial &material() const { return material_; }
   const SolidMesh &mesh() const { return mesh_; }
   double volume() const { return volume_; }                                // m^3, without load
   double mass() const { return material_.density * volume_; }              // kg
@@ -87,7 +91,9 @@ public:
   // Moves the surface alone to its position after a drift over dt: for callers that step the solid rarely and
   // read its surface often.
   void place_surface_ahead(double dt);
-  void update_forces(); // internal and pressure forces at the current positions
+  // Internal and pressure forces at the current positions. Metal yields from where it was at the last
+  // drift(): calls without one give the same forces again.
+  void update_forces();
   // s; from the largest eigenvalue of the assembled stiffness, load stiffness included, to 1 % and on the
   // safe side (node_matrix.h). Costs as much as 30 steps: call it rarely. Contact springs are not included:
   // see surface_mass().
@@ -95,6 +101,9 @@ public:
 
   double kinetic_energy() const;  // J
   double internal_energy() const; // J, stored, as of the last update_forces
+  double plastic_work() const;    // J, lost to yielding since the start, as of the last update_forces
+  // Equivalent, mean of each cell's points; empty where nothing yields.
+  std::vector<double> plastic_strains() const;
   // Since the start (J). Pressure work is the swept volume times the mean of the pressures of the last forces
   // and of the next ones, as in velocity Verlet.
   double pressure_work() const { return pressure_work_; }
@@ -107,9 +116,10 @@ public:
   const std::vector<Vector3> &pressure_forces() const { return pressed_; }   // N
   const std::vector<double> &nodal_mass() const { return mass_; }            // kg
   Vector3 node_place(int node) const { return mesh_.nodes[index(node)] + displacement_[index(node)]; } // m
-  // Sets all node positions and updates the forces; counts no work. Throws InvertedElement, then nothing has
-  // changed.
+  // Sets all node positions and updates the forces; counts no work, and metal yields from where it was at the
+  // last drift() or yield_here(). Throws InvertedElement, then nothing has changed.
   void set_displacement(const std::vector<Vector3> &displacement);
+  void yield_here(); // metal: the next forces start from the plastic strain that the last ones found
 
   // Cauchy stress (Pa), tension positive. Node values are means over the adjacent cells by current volume.
   std::vector<CellStress> cell_stresses() const;
@@ -148,6 +158,8 @@ private:
   Vector3 node_load(std::size_t node) const {
     return vertex_of_[node] < 0 ? Vector3{} : load_[index(vertex_of_[node])];
   }
+  void describe_yielding(Archive &archive);
+  CellStress stress_of(std::size_t cell) const;
   // The inverted cell with the lowest number for this displacement.
   Worst first_inverted(const std::vector<Vector3> &displacement) const;
   Vector3 cell_middle(int cell, const std::vector<Vector3> &displacement) const;
@@ -163,7 +175,7 @@ private:
   void place_surface();
   void follow_state();
 
-  Rubber material_;
+  SolidMaterial material_;
   SolidMesh mesh_;
   std::vector<int> surface_node_;       // of each vertex
   std::vector<int> vertex_of_;          // of each node, -1 where it is not on the surface
@@ -179,6 +191,8 @@ private:
   std::vector<double> acting_;        // Pa, the same for the current forces
   double damping_ = 0;
 
+  std::optional<J2Plasticity> plastic_;
+  std::vector<PlasticPoints> before_, after_; // of each cell, around the last update_forces; empty: rubber
   std::vector<CellForce> cell_force_;
   std::vector<Vector3> internal_, pressed_; // N, of each node
   double pressure_work_ = 0, prescribed_work_ = 0, damping_work_ = 0;

@@ -52,8 +52,14 @@ Picture ElasticSolid::picture(const std::vector<double> &slip) const {
 std::vector<CellStress> HyperelasticSolid::cell_stresses() const {
   std::vector<CellStress> stresses(mesh_.cells.size());
   for (std::size_t c = 0; c < stresses.size(); ++c)
-    stresses[c] = cell_stress(material_.law, mesh_.cells[c], mesh_.gather(c, displacement_));
+    stresses[c] = stress_of(c);
   return stresses;
+}
+
+CellStress HyperelasticSolid::stress_of(std::size_t cell) const {
+  const Corners own = mesh_.gather(cell, displacement_);
+  return plastic_ ? cell_stress(material_.law, mesh_.cells[cell], own, after_[cell])
+                  : cell_stress(material_.law, mesh_.cells[cell], own);
 }
 
 std::vector<Tensor> HyperelasticSolid::node_stresses() const {
@@ -89,6 +95,7 @@ Picture HyperelasticSolid::picture(const std::vector<double> &slip) const {
   picture.of_points.push_back(std::move(mises));
   picture.of_points.push_back(std::move(pressure));
   picture.of_cells.push_back(std::move(ratio));
+  if (plastic_) picture.of_cells.push_back({"plastic_strain", 1, plastic_strains()});
   return picture;
 }
 

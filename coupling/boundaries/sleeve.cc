@@ -87,7 +87,7 @@ Sleeve::Sleeve(const dem::Particles &particles, const dem::Shape &shape, const E
 }
 
 void Sleeve::build(const dem::Particles &particles) {
-  const fem::Rubber rubber{settings_.density * mass_scaling(),
+  const fem::SolidMaterial rubber{settings_.density * mass_scaling(),
                            fem::NeoHookean::from_young(settings_.young_modulus, settings_.poisson_ratio)};
   fem::load_solids();
   solid_ = std::make_unique<fem::HyperelasticSolid>(tube_around(shape_, low_, high_, settings_), rubber,

@@ -156,7 +156,7 @@ TEST(sleeve_cell, a_soft_sleeve_is_as_good_as_a_pressure_on_the_skin) {
   EXPECT_NEAR(a.strain.lateral() / b.strain.lateral(), 1, 0.03);
   EXPECT_NEAR(a.axial / a.gauge_axial / (b.axial / b.gauge_axial), 1, 0.01);
   EXPECT_NEAR(a.gauge_lateral / a.gauge_axial / (b.gauge_lateral / b.gauge_axial), 1, 0.05);
-  // Rubber of so small a modulus carries next to nothing of the axial load.
+  // SolidMaterial of so small a modulus carries next to nothing of the axial load.
   EXPECT_LT(std::abs(oil.sleeve_deviator()), 0.01 * a.axial);
 }
 

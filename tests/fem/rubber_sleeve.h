@@ -11,9 +11,9 @@
 
 namespace platen::fem {
 
-inline const Rubber rubber{1100, NeoHookean::from_young(3e6, 0.49)};
+inline const SolidMaterial rubber{1100, NeoHookean::from_young(3e6, 0.49)};
 
-inline HyperelasticSolid sleeve(const Rubber &material = rubber,
+inline HyperelasticSolid sleeve(const SolidMaterial &material = rubber,
                                 const std::vector<int> &contact = {inner_tag}) {
   return HyperelasticSolid(make_grid(Tube{0.05, 0.005, 0.0, 0.06, 16, 6, 2}), material, contact);
 }
