@@ -13,6 +13,9 @@ namespace {
 
 using By = dem::Weakening::By;
 
+// Of a tube: the ends that it leaves free together, of the height; its gap, of the radius.
+constexpr double most_clearance = 0.5, most_gap = 0.1;
+
 class Rules {
 public:
   Rules(const PlatenTestSettings &settings, const dem::Shape *shape)
@@ -34,6 +37,7 @@ public:
     if (!l_.unload_at.empty()) cycles();
     lateral();
     if (l_.cell) cell(*l_.cell);
+    if (l_.tube) tube(*l_.tube);
     if (p_.left || p_.right || p_.front || p_.back) sides();
     if (!l_.stages.empty()) stages();
     return std::move(found_);
@@ -226,14 +230,45 @@ private:
     refuse_if(l_.servo, "loading.servo",
               "does not go with `loading.cell`: the pressure holds the platen at first, then it moves. "
               "Allowed: motion.");
-    if (!cell.sleeve) return;
-    refuse_if(shape_ != nullptr && shape_->kind != dem::ShapeKind::cylinder, "loading.cell",
+    if (cell.sleeve) sleeve(*cell.sleeve, "loading.cell");
+  }
+
+  void sleeve(const SleeveSettings &sleeve, const std::string &of) {
+    refuse_if(shape_ != nullptr && shape_->kind != dem::ShapeKind::cylinder, of,
               "is a sleeve, which goes around a cylinder. Allowed: none, particles.");
     refuse_if(!verlet(), "ModelSettings.scheme", "does not go with a sleeve. Allowed: velocity verlet.");
-    refuse_if(cell.sleeve->mass_scaling > 0 && cell.sleeve->mass_scaling < 1, "sleeve.mass_scaling",
+    refuse_if(sleeve.mass_scaling > 0 && sleeve.mass_scaling < 1, "sleeve.mass_scaling",
               "makes the sleeve lighter. Allowed: 0, or 1 and more.");
-    refuse_if(cell.sleeve->elements_around > 0 && cell.sleeve->elements_around < 8, "sleeve.elements_around",
+    refuse_if(sleeve.elements_around > 0 && sleeve.elements_around < 8, "sleeve.elements_around",
               "is too few for a tube. Allowed: 0, or 8 and more.");
+  }
+
+  void tube(const SleeveSettings &tube) {
+    sleeve(tube, "loading.tube");
+    refuse_if(l_.cell.has_value(), "loading.cell",
+              "does not go with a tube, which stands in no cell. Allowed: none.");
+    refuse_if(l_.wall, "loading.wall", "does not go with a tube. Allowed: none.");
+    refuse_if(l_.tension, "loading.tension", "does not go with a tube. Allowed: compression.");
+    if (shape_ != nullptr && shape_->kind == dem::ShapeKind::cylinder) {
+      refuse_if(
+          tube.thickness > shape_->radius, "sleeve.thickness",
+          "is more than the radius of the specimen, " + text_of(shape_->radius) + " m. Allowed: up to that.");
+      refuse_if(2 * tube.clearance > most_clearance * shape_->height, "sleeve.clearance",
+                "leaves less than half of the specimen's height for the tube. Allowed: up to " +
+                    text_of(0.5 * most_clearance * shape_->height) + " m.");
+      refuse_if(
+          tube.gap > most_gap * shape_->radius, "sleeve.gap",
+          "is more than a tenth of the radius. Allowed: up to " + text_of(most_gap * shape_->radius) + " m.");
+    }
+    if (!tube.metal) return;
+    const MetalSettings &metal = *tube.metal;
+    refuse_if(std::isnan(metal.yield_strength), "sleeve.metal.yield_strength", "has to be given for a tube.");
+    refuse_if(metal.ultimate_strength < metal.yield_strength, "sleeve.metal.ultimate_strength",
+              "is below the yield strength. Allowed: " + text_of(metal.yield_strength) + " Pa or more.");
+    refuse_if(!std::isnan(metal.ultimate_strength) && !metal.points.empty(), "sleeve.metal.ultimate_strength",
+              "does not go with points of hardening. Allowed: one of both.");
+    refuse_if((metal.saturation > 0) != (metal.saturation_rate > 0), "sleeve.metal.saturation_rate",
+              "and the saturation go together. Allowed: both above 0, or none.");
   }
 
   void sides() {

@@ -125,7 +125,8 @@ void PlatenTest::require_in_range() const {
   if (settings_.platens.elastic) platen::require_in_range(*settings_.platens.elastic);
   platen::require_in_range(loading);
   if (loading.cell) platen::require_in_range(*loading.cell);
-  if (loading.cell && loading.cell->sleeve) platen::require_in_range(*loading.cell->sleeve);
+  if (const SleeveSettings *sleeve = loading.sleeve()) platen::require_in_range(*sleeve);
+  if (loading.tube && loading.tube->metal) platen::require_in_range(*loading.tube->metal);
   require_no_fault(settings_, shape());
 }
 
@@ -225,15 +226,16 @@ void PlatenTest::choose_rates() {
 
 void PlatenTest::add_lateral(double bond) {
   const LoadingSettings &loading = settings_.loading;
-  if (loading.cell) {
+  if (loading.cell || loading.tube) {
     try {
-      if (loading.cell->sleeve)
-        add_sleeve(*loading.cell, bond);
+      if (loading.sleeve() != nullptr)
+        add_sleeve(*loading.sleeve(), bond);
       else
         skin_ = &add(std::make_unique<SkinPressure>(model.particles, model.bonds.get(), shape(), *ends_,
                                                     loading.cell->area));
     } catch (const std::invalid_argument &e) {
-      throw BadSetup("loading.cell", std::string("cannot be: ") + e.what() + ".");
+      throw BadSetup(loading.tube ? "loading.tube" : "loading.cell",
+                     std::string("cannot be: ") + e.what() + ".");
     }
   }
   if (loading.wall)
@@ -244,15 +246,17 @@ void PlatenTest::add_lateral(double bond) {
 
 // Penalty springs of the skin are in series with the specimen: stiff enough for the pressure, and no stiffer,
 // because with the light nodes of the sleeve they determine its steps.
-void PlatenTest::add_sleeve(const CellSettings &cell, double bond) {
-  SleeveSettings settings = *cell.sleeve;
+void PlatenTest::add_sleeve(const SleeveSettings &given, double bond) {
+  SleeveSettings settings = given;
+  const double pressure = settings_.loading.cell ? settings_.loading.cell->pressure : 0;
   settings.contact.particle_stiffness =
-      cell.sleeve_stiffness > 0
-          ? cell.sleeve_stiffness * bond
-          : std::max(springs_of_pressure * cell.pressure * facts_.mean_radius, least_fraction_of_bond * bond);
+      given.stiffness > 0 ? given.stiffness * bond
+      : settings_.loading.tube
+          ? bond
+          : std::max(springs_of_pressure * pressure * facts_.mean_radius, least_fraction_of_bond * bond);
   settings.contact.skin = surface_skin * facts_.mean_radius;
   settings.contact.instruction_set = model.settings().instruction_set;
-  settings.seat_depth = cell.sleeve_seat_depth * facts_.mean_radius;
+  settings.seat_depth = given.seat_layer * facts_.mean_radius;
   sleeve_ = &add(std::make_unique<Sleeve>(model.particles, shape(), *ends_, settings));
 }
 

@@ -73,6 +73,7 @@ public:
   const ElasticPlaten *elastic_top() const { return elastic_top_; }
   Sleeve *sleeve() { return sleeve_; }
   const Sleeve *sleeve() const { return sleeve_; }
+  const Sleeve *tube() const { return settings_.loading.tube ? sleeve_ : nullptr; } // a sleeve without a cell
   const SkinPressure *skin() const { return skin_; }
   const LateralWall *wall() const { return wall_; }
   bool cell() const { return settings_.loading.cell.has_value(); }
@@ -108,6 +109,7 @@ public:
   // Pa over nominal_area(): pressure of the platens on the sleeve's ends, which stress_top() and
   // stress_bottom() leave out, in excess of the pressure in the rubber. NaN without a sleeve.
   double sleeve_deviator() const;
+  double tube_load() const; // N, of the platens on the ends of a tube; NaN without one
   // m^2: the cross-section, or the net one; of a bent bar that which gives the nominal flexural stress.
   double nominal_area() const {
     return bent() ? three_points().nominal_area() : section_fraction() * shape().cross_section();
@@ -150,7 +152,7 @@ private:
   void require_cover(Side side) const;
   void seat_platens(const dem::Specimen &specimen);
   void add_lateral(double bond);
-  void add_sleeve(const CellSettings &cell, double bond);
+  void add_sleeve(const SleeveSettings &given, double bond);
   void choose_rates();
   double gain_of_servo() const; // of servos other than the top platen's own
   double stiffness_of_specimen() const;

@@ -101,6 +101,10 @@ double PlatenTest::sleeve_deviator() const {
   return sleeve_ == nullptr ? none : sleeve_->axial_force_beyond_pressure() / nominal_area();
 }
 
+double PlatenTest::tube_load() const {
+  return tube() == nullptr ? none : tube()->axial_force_beyond_pressure();
+}
+
 double PlatenTest::bending_period() const {
   const double slenderness = settings_.platens.span / shape().height;
   return 2 / pi * std::sqrt(12.0) * slenderness * slenderness * facts_.wave_transit;

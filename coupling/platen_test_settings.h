@@ -100,9 +100,7 @@ struct CellSettings {
   // Without a sleeve the pressure acts on the spheres of the skin; with a sleeve it acts on its outer face.
   dem::ConfinementArea area = dem::ConfinementArea::voronoi;
   std::optional<SleeveSettings> sleeve;
-  double sleeve_stiffness = 0;  // of its contacts, multiple of the mean bond's; 0: computed from the pressure
-  double sleeve_seat_depth = 1; // mean radii: spheres up to this depth are seated flush with its inner face
-  bool alone = false;           // hydrostatic: the test ends when the pressure has been constant for `hold`
+  bool alone = false; // hydrostatic: the test ends when the pressure has been constant for `hold`
 
   static constexpr const char *name = "loading.cell";
   template <class Visitor, class Self>
@@ -123,9 +121,10 @@ struct LoadingSettings {
   double hold = 0;       // s, duration of that stress after the ramp, or of a cell's pressure alone
   double servo_gain = 0; // 0.1 ... 10; 0: 5 for top_stress, 10 in a cell or on a spring, 40 else
   std::optional<CellSettings> cell;
-  bool wall = false;          // around the specimen, stiff and frictionless
-  double wall_stiffness = 10; // multiple of the mean bond's
-  double wall_layer = 1;      // mean radii: deeper spheres are not seated on the wall
+  std::optional<SleeveSettings> tube; // around a cylinder without a cell: it confines as it is pressed
+  bool wall = false;                  // around the specimen, stiff and frictionless
+  double wall_stiffness = 10;         // multiple of the mean bond's
+  double wall_layer = 1;              // mean radii: deeper spheres are not seated on the wall
   // Closure strains (since the end of a cell's own stage) at which the platens reverse until the axial stress
   // (less the cell's pressure) has fallen to this fraction of its value at the reversal; ascending.
   std::vector<double> unload_at;
@@ -133,6 +132,11 @@ struct LoadingSettings {
   // These stages, one after the other, replace the members above. A cell's pressure is then their largest
   // one.
   std::vector<StageSettings> stages;
+
+  // The sleeve of a cell, or the tube; null: none.
+  const SleeveSettings *sleeve() const {
+    return tube ? &*tube : cell && cell->sleeve ? &*cell->sleeve : nullptr;
+  }
 
   static constexpr const char *name = "loading";
   template <class Visitor, class Self>
@@ -269,11 +273,6 @@ void CellSettings::describe(Visitor &&v, Self &p) {
                                 {"sphere", dem::ConfinementArea::sphere}},
     "What the pressure acts on: each sphere's part of the deformed surface, or pi R^2 of each lateral "
     "sphere.");
-  v("sleeve_stiffness", p.sleeve_stiffness, "1", between(0, 1000),
-    "Penalty stiffness of grains on it, as a multiple of the mean bond's; 0: by the pressure, which then "
-    "presses a sphere in by some 4 % of its radius.");
-  v("sleeve_seat_depth", p.sleeve_seat_depth, "1", between(0, 10),
-    "Grains whose surface lies no deeper, in mean radii, lie flush with it from the start.");
 }
 
 template <class Visitor, class Self>

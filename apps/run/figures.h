@@ -115,6 +115,12 @@ void list_moduli(List &list) {
   });
 }
 
+template <class Test>
+double at_largest_load(const Test &t, double Sample::*value) {
+  const Sample *largest = t.results.at_largest(&Sample::total_load);
+  return largest == nullptr ? not_measured : largest->*value;
+}
+
 // Of a pressure on the lateral surface, and of a wall that holds it.
 template <class List>
 void list_cell(List &list) {
@@ -139,6 +145,23 @@ void list_cell(List &list) {
   list.add("sleeve_interval_cuts", "1", [](auto &t) { return t.problem.sleeve()->cuts(); });
   list.add("sleeve_volumetric_strain", "1", [](auto &t) { return t.problem.sleeve_volumetric_strain(); });
   list.add("sleeve_deviator_pa", "Pa", [](auto &t) { return t.problem.sleeve_deviator(); });
+  list.where([](auto &t) { return t.problem.tube() != nullptr; });
+  list.add("largest_load_n", "N", history | section, {"largest load on tube and specimen", "{:.1f} kN", 1e-3},
+           "total_load_n", [](auto &t) { return at_largest_load(t, &Sample::total_load); });
+  list.add("strain_at_largest_load", "1", history, {"strain there (platen)", "{:.5f}"}, "total_load_n",
+           [](auto &t) { return at_largest_load(t, &Sample::strain_platen); });
+  list.add("tube_load_at_largest_n", "N", history, {"of which on the tube", "{:.1f} kN", 1e-3},
+           "total_load_n tube_load_n", [](auto &t) { return at_largest_load(t, &Sample::tube_load); });
+  list.add("tube_axial_stress_at_largest_pa", "Pa", history,
+           {"axial stress of the tube there", "{:.1f} MPa", 1e-6}, "total_load_n tube_axial_stress_pa",
+           [](auto &t) { return at_largest_load(t, &Sample::tube_axial); });
+  list.add("tube_hoop_stress_at_largest_pa", "Pa", history,
+           {"hoop stress of the tube there", "{:.1f} MPa", 1e-6}, "total_load_n tube_hoop_stress_pa",
+           [](auto &t) { return at_largest_load(t, &Sample::tube_hoop); });
+  list.add("tube_pressure_at_largest_pa", "Pa", history,
+           {"pressure on the specimen there", "{:.2f} MPa", 1e-6}, "total_load_n tube_pressure_pa",
+           [](auto &t) { return at_largest_load(t, &Sample::tube_pressure); });
+  list.add("tube_plastic_work_j", "J", [](auto &t) { return t.problem.tube()->solid().plastic_work(); });
   list.where([](auto &t) { return t.problem.skin() != nullptr; });
   list.add("skin_spheres", "1", [](auto &t) { return t.problem.skin()->skin().size(); });
   list.add("skin_coverage", "1", [](auto &t) {

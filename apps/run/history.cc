@@ -18,8 +18,11 @@ struct Seen {
   const coupling::PlatenTest &problem;
   dem::GaugeStrain gauge;
   dem::EnergyLedger energy;
+  coupling::Sleeve::WallState wall; // of a tube
   Seen(const Sampler &by, const coupling::PlatenTest &of)
-      : sampler(by), problem(of), gauge(by.gauge_.strain(of.model.particles)), energy(of.energy()) {}
+      : sampler(by), problem(of), gauge(by.gauge_.strain(of.model.particles)), energy(of.energy()) {
+    if (of.tube() != nullptr) wall = of.tube()->wall_state();
+  }
   const dem::Particles &particles() const { return problem.model.particles; }
   double lateral_extremal() const { return -sampler.pairs_.lateral(particles()); }
   double axial_extremal() const { return -sampler.pairs_.axial(particles()); }
@@ -51,6 +54,9 @@ bool in_cell(const PlatenTest &p) {
 }
 bool in_sleeve(const PlatenTest &p) {
   return p.sleeve() != nullptr;
+}
+bool in_tube(const PlatenTest &p) {
+  return p.tube() != nullptr;
 }
 bool of_disc(const PlatenTest &p) {
   return p.shape().kind == dem::ShapeKind::disc;
@@ -206,6 +212,25 @@ const std::vector<HistoryColumn> &history_columns() {
        staged},
       {"circumferential_strain", "1", nullptr,
        [](const Seen &s) { return s.problem.circumferential_strain(); }, number, widens, without_spheres},
+      {"total_load_n", "N", &S::total_load,
+       [](const Seen &s) {
+         return s.problem.tube_load() +
+                0.5 * (s.problem.stress_top() + s.problem.stress_bottom()) * s.problem.nominal_area();
+       },
+       number, in_tube},
+      {"tube_load_n", "N", &S::tube_load, [](const Seen &s) { return s.problem.tube_load(); }, number,
+       in_tube},
+      {"tube_axial_stress_pa", "Pa", &S::tube_axial, [](const Seen &s) { return s.wall.axial; }, number,
+       in_tube},
+      {"tube_hoop_stress_pa", "Pa", &S::tube_hoop, [](const Seen &s) { return s.wall.hoop; }, number,
+       in_tube},
+      {"tube_pressure_pa", "Pa", &S::tube_pressure,
+       [](const Seen &s) { return s.problem.tube()->specimen_pressure(); }, number, in_tube},
+      {"tube_plastic_strain", "1", nullptr, [](const Seen &s) { return s.wall.plastic_strain; }, number,
+       in_tube},
+      {"tube_yielded_share", "1", nullptr, [](const Seen &s) { return s.wall.yielded; }, number, in_tube},
+      {"tube_bulge_m", "m", nullptr, [](const Seen &s) { return s.wall.bulge; }, number, in_tube},
+      {"tube_slip_m", "m", nullptr, [](const Seen &s) { return s.problem.tube()->slip(); }, number, in_tube},
       {"cell_pressure_pa", "Pa", &S::cell_pressure,
        [](const Seen &s) { return s.problem.confining_pressure(); }, state, in_cell},
       {"cycling", "1", &S::cycling, [](const Seen &s) { return s.problem.cycling() ? 1.0 : 0.0; }, state},

@@ -9,6 +9,7 @@
 #include "apps/scene/errors.h"
 #include "apps/scene/program.h"
 #include "apps/scene/regular_file.h"
+#include "apps/scene/tubes.h"
 #include "dem/laws/normal_contact.h"
 #include "fem/gmsh.h"
 #include "fem/load_solids.h"
@@ -62,7 +63,7 @@ std::vector<Effect> effects(const Scene &s) {
       {s.platens.glued, "glued ends", "Platens/Attachment"},
       {s.loading.confinement == ConfinementKind::particles, "confinement on particles",
        "Loading/Confinement"},
-      {s.loading.sleeved(), "sleeve", "Loading/Confinement"},
+      {s.loading.sleeved(), s.loading.tubed() ? "tube" : "sleeve", "Loading/Confinement"},
       {s.loading.walled(), "lateral wall", "Loading/Test"},
       {!s.loading.unload_at.empty(), "unloading", "Loading/Unload at"},
       {s.specimen.seat, "seats", "Specimen/Seat"},
@@ -116,6 +117,9 @@ coupling::PlatenTestSettings problem_settings(const Scene &scene) {
   const auto read = [&](coupling::PlatenSide &side, coupling::Side which) {
     side.grid = platen_grid(scene, scene.platens.face(which));
   };
+  if (to.loading.tube && !scene.loading.hardening_file.empty())
+    to.loading.tube->metal->points =
+        read_hardening(scene.loading.hardening_file, to.loading.tube->metal->yield_strength);
   using coupling::Side;
   read(to.platens.top, Side::top), read(to.platens.bottom, Side::bottom);
   if (to.platens.left) read(*to.platens.left, Side::left), read(*to.platens.right, Side::right);

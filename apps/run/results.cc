@@ -191,6 +191,15 @@ LargestReading Results::largest_of(bool axial_alone, double cell) const {
   return largest;
 }
 
+const Sample *Results::at_largest(double Sample::*value) const {
+  const Sample *largest = nullptr;
+  for (const Sample &s : samples_) {
+    if (std::isnan(s.*value)) return nullptr;
+    if (largest == nullptr || s.*value > largest->*value) largest = &s;
+  }
+  return largest;
+}
+
 double Results::stress_at_end() const {
   return samples_.empty() ? not_measured : sign_ * samples_.back().stress(axis_);
 }

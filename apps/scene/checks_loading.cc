@@ -1,6 +1,7 @@
 // Platens and what is done with them: what the library refuses of the settings (coupling/faults.h), by the
 // entries that set them, and what only a scene can ask.
 #include "apps/scene/scene_check.h"
+#include "apps/scene/tubes.h"
 
 #include <algorithm>
 
@@ -90,6 +91,7 @@ void SceneCheck::loading() const {
   if (loading.servo && loading.ramp == 0)
     refuse("Platens/Top/Control", "needs Loading/Ramp > 0: the time to the full stress.");
   if (loading.bending()) need("Platens/Span", scene_.platens.span, "a bar needs its supports.");
+  if (loading.tubed()) tube();
   if (loading.hydrostatic() && !loading.confined())
     refuse("Loading/Test",
            "needs Loading/Confinement = particles, sleeve: the lateral surface is pressed too.");
@@ -103,6 +105,19 @@ void SceneCheck::loading() const {
           return refuse(first_entry(parameters_, section_of_stage(later + 1)),
                         "is of a stage without the one before it: " + section_of_stage(k + 1) +
                             " is empty. Allowed: stages " + "without a gap.");
+}
+
+void SceneCheck::tube() const {
+  const Loading &loading = scene_.loading;
+  if (loading.cell->pressure > 0)
+    refuse("Loading/Confining pressure",
+           "does not go with Sleeve/Kind = tube, which stands in no cell. Allowed: 0.");
+  const coupling::SleeveSettings &wall = *loading.cell->sleeve;
+  if (!parameters_.at("Sleeve/Modulus").changed() && loading.steel == Steel::custom)
+    refuse("Sleeve/Modulus", "has to be given for a tube of custom steel.");
+  if (wall.metal->ultimate_strength > 0 && !loading.hardening_file.empty())
+    refuse("Sleeve/Hardening file", "does not go with Sleeve/Ultimate strength. Allowed: one of both.");
+  if (!loading.hardening_file.empty()) read_hardening(loading.hardening_file, wall.metal->yield_strength);
 }
 
 // What a word needs besides the entries that it stands for.

@@ -49,6 +49,7 @@ private:
   void cross_section() const;
   void spheres_fit() const;
   void surfaces() const;
+  void tube() const;
   void meshes() const;
   void layers() const;
   void layers_of(const std::string &path, const std::vector<NamedLayer> &layers, bool plate) const;

@@ -106,6 +106,8 @@ inline const Words<LoadingTest> loading_tests{{"compression", LoadingTest::compr
                                               {"uniaxial strain", LoadingTest::uniaxial_strain},
                                               {"three point bending", LoadingTest::three_point_bending}};
 enum class ConfinementKind { none, particles, sleeve };
+enum class SleeveKind { rubber, tube };
+enum class Steel { custom, s235, s275, s355 };
 
 struct Loading : coupling::LoadingSettings {
   LoadingTest test = LoadingTest::compression;
@@ -113,13 +115,18 @@ struct Loading : coupling::LoadingSettings {
   ConfinementKind confinement = ConfinementKind::none;  // `cell`, and its sleeve, count then
   std::array<StageSection, most_stages> stage_sections; // what `stages` are made of
 
+  SleeveKind sleeve_kind = SleeveKind::rubber;
+  Steel steel = Steel::custom;
+  std::string hardening_file; // of a tube
+
   Loading() {
     target_strain = 0.01;
-    cell.emplace().sleeve.emplace();
+    cell.emplace().sleeve.emplace().metal.emplace();
   }
   bool staged() const { return !stages.empty(); }
-  bool confined() const { return confinement != ConfinementKind::none; }
-  bool sleeved() const { return confinement == ConfinementKind::sleeve; }
+  bool sleeved() const { return confinement == ConfinementKind::sleeve; } // of finite elements, any kind
+  bool tubed() const { return sleeved() && sleeve_kind == SleeveKind::tube; }
+  bool confined() const { return confinement != ConfinementKind::none && !tubed(); } // by a pressure
   bool walled() const { return test == LoadingTest::uniaxial_strain; }
   bool bending() const { return test == LoadingTest::three_point_bending; }
   bool hydrostatic() const { return test == LoadingTest::hydrostatic; }

@@ -13,6 +13,7 @@
 #include "apps/scene/scene_check.h"
 #include "apps/scene/specimen_file.h"
 #include "apps/scene/surfaces.h"
+#include "apps/scene/tubes.h"
 
 namespace platen::apps {
 namespace {
@@ -68,7 +69,7 @@ void leave_out_cell(Scene &scene, const Parameters &parameters, const Program &p
   const bool none =
       loading.cell->pressure == 0 && !parameters.at("Loading/Confining pressure").origin.file.empty();
   const bool varied = Situation{scene, parameters, program}.given_by_program("Loading/Confining pressure");
-  if (none && !loading.staged() && !loading.hydrostatic() && !varied)
+  if (none && !loading.tubed() && !loading.staged() && !loading.hydrostatic() && !varied)
     loading.confinement = ConfinementKind::none;
 }
 
@@ -76,6 +77,7 @@ void leave_out_cell(Scene &scene, const Parameters &parameters, const Program &p
 void inherit(Scene &scene, Parameters &parameters, const Program &program) {
   supply_quality(parameters, scene.general.quality);
   supply_surfaces(parameters, scene.platens);
+  supply_tube(parameters, scene.loading);
   Platens &platens = scene.platens;
   const auto take = [](double &own, double common) { own = std::isnan(own) ? common : own; };
   for (const coupling::Side which : coupling::all_sides) {
@@ -92,6 +94,7 @@ void inherit(Scene &scene, Parameters &parameters, const Program &program) {
   }
   scene.specimen.file = resolved_path(parameters.at("Specimen/File"));
   scene.specimen.bond_file = resolved_path(parameters.at("Specimen/Bond file"));
+  scene.loading.hardening_file = resolved_path(parameters.at("Sleeve/Hardening file"));
   parameters.attempt([&] { supply_specimen(scene, parameters); });
   parameters.attempt([&] { supply_layers(parameters, platens); });
   if (platens.thickness == 0 && !std::isnan(scene.specimen.height))

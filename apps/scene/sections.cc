@@ -83,7 +83,7 @@ void declare_scene(Parameters &parameters, Scene &scene) {
   declare_phases(parameters, scene.phases);
   declare_contact(parameters, scene.contact);
   declare_platens(parameters, scene.platens, scene.loading);
-  declare_sleeve(parameters, *scene.loading.cell);
+  declare_sleeve(parameters, scene.loading);
   declare_loading(parameters, scene.loading);
   declare_stages(parameters, scene.loading.stage_sections);
   declare_integration(parameters, scene.time_step, scene.model);

@@ -16,7 +16,7 @@ void declare_bond(Parameters &parameters, Bond &bond, dem::ModelSettings &model)
 void declare_phases(Parameters &parameters, PhasesSection &phases);
 void declare_contact(Parameters &parameters, dem::ContactSettings &contact);
 void declare_platens(Parameters &parameters, Platens &platens, coupling::LoadingSettings &loading);
-void declare_sleeve(Parameters &parameters, coupling::CellSettings &cell);
+void declare_sleeve(Parameters &parameters, Loading &loading);
 void declare_loading(Parameters &parameters, Loading &loading);
 void declare_stages(Parameters &parameters, std::array<StageSection, most_stages> &stages);
 void declare_expect(Parameters &parameters, std::vector<Expectation> &expect);

@@ -6,6 +6,7 @@
 #include "apps/scene/members.h"
 #include "apps/scene/sections.h"
 #include "apps/scene/surfaces.h"
+#include "apps/scene/tubes.h"
 
 namespace platen::apps {
 namespace {
@@ -199,14 +200,36 @@ void declare_platens(Parameters &parameters, Platens &platens, coupling::Loading
   declare_further_sides(parameters, platens);
 }
 
-void declare_sleeve(Parameters &parameters, coupling::CellSettings &cell) {
-  const Section section =
+void declare_sleeve(Parameters &parameters, Loading &loading) {
+  Section section =
       Section(parameters, "Sleeve")
           .only_if(
               [](const Situation &s) { return s.scene.loading.sleeved() || s.used_by_program("Sleeve"); },
               "Loading/Confinement is not sleeve");
-  Members of(section, *cell.sleeve);
-  Members in(section, cell);
+  coupling::SleeveSettings &sleeve = *loading.cell->sleeve;
+  const std::vector<std::string> tube{"tube"};
+  section
+      .entry<SleeveKind>(
+          "Kind", loading.sleeve_kind, {{"rubber", SleeveKind::rubber}, {"tube", SleeveKind::tube}},
+          "rubber: in a cell, whose pressure acts through it; tube: of metal that yields, which "
+          "confines the specimen because the specimen presses it.")
+      .member("loading.tube");
+  Members of(section, sleeve);
+  Members metal(section.only_if("Sleeve/Kind", tube), *sleeve.metal);
+  section.only_if("Sleeve/Kind", tube)
+      .entry<Steel>("Steel", loading.steel, steel_words(), steel_documentation());
+  metal("yield_strength").needed_if([](const Situation &s) {
+    return s.loads() && s.scene.loading.tubed() ? "a tube yields." : "";
+  });
+  for (const char *member : {"ultimate_strength", "saturation", "saturation_rate"})
+    metal(member);
+  section.only_if("Sleeve/Kind", tube)
+      .file("Hardening file", loading.hardening_file,
+            "A table of plastic_strain and flow_stress_pa (or flow_stress_mpa), true stress and strain, "
+            "after the "
+            "yield strength; instead of an ultimate strength.");
+  for (const char *member : {"gap", "clearance"})
+    of(member).only_if("Sleeve/Kind", tube);
   of("thickness");
   of("young_modulus", "Modulus");
   for (const char *member : {"poisson_ratio", "density"})
@@ -214,8 +237,8 @@ void declare_sleeve(Parameters &parameters, coupling::CellSettings &cell) {
   of("bonded_rims", "Rims");
   for (const char *member : {"elements_around", "elements_through", "friction"})
     of(member);
-  in("sleeve_stiffness", "Stiffness");
-  in("sleeve_seat_depth", "Seat depth");
+  of("stiffness");
+  of("seat_layer", "Seat depth");
   of("contact_damping");
   of("mass_damping", "Damping");
   of.rest();
@@ -226,7 +249,7 @@ void declare_loading(Parameters &parameters, Loading &loading) {
   const auto unstaged = [](const Scene &s) { return !s.loading.staged(); };
   const std::string staged = "Loading/Stage 1 is there";
   const Section axial = section.unless("Loading/Test", {"hydrostatic"}),
-                cell = section.unless("Loading/Confinement", {"none"});
+                cell = section.unless("Loading/Confinement", {"none"}).unless("Sleeve/Kind", {"tube"});
   Members of(section, loading), along(axial, loading);
   Members in(cell, *loading.cell), alone(cell.only_if(unstaged, staged), *loading.cell);
   section
@@ -277,7 +300,7 @@ void declare_loading(Parameters &parameters, Loading &loading) {
       .only_if([](const Scene &s) { return !s.loading.unload_at.empty(); }, "Loading/Unload at is empty");
   in("area", "Confinement area").only_if("Loading/Confinement", {"particles"});
   of.rest({"servo", "top_stress"});
-  in.rest({"sleeve_stiffness", "sleeve_seat_depth"});
+  in.rest();
 }
 
 } // namespace platen::apps

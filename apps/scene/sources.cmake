@@ -32,6 +32,7 @@ set(PLATEN_SCENE_SOURCES
   scene/shipped.cc
   scene/standards.cc
   scene/surfaces.cc
+  scene/tubes.cc
   scene/layers.cc
   scene/expect.cc
   scene/command_line.cc

@@ -59,7 +59,8 @@ void SceneCheck::standard() const {
   need(loading.test == LoadingTest::compression, "Loading/Test", "compression");
   need(!scene_.platens.glued, "Platens/Attachment", "contact");
   need(scene_.platens.sides == PlatenSides::two, "Platens/Sides", "two");
-  need(asked->confined || !loading.confined(), "Loading/Confinement", "none");
+  need(loading.confinement == ConfinementKind::none || (asked->confined && !loading.tubed()),
+       "Loading/Confinement", "none");
   need(!other_height || situation().given_by_program("Specimen/Height"), "Specimen/Height",
        fmt::format("{:g} ... {:g} times the width, which this is {:.3g} times", asked->least_slenderness,
                    asked->most_slenderness, slender));

@@ -20,7 +20,7 @@ namespace {
 constexpr int intervals_between_limits = 100;
 // Intervals of this many steps make a sleeve cheap. Springs grow with the pressure; so does the mass of the
 // sleeve, and its inertia force stays the same small fraction of the pressure.
-constexpr double steps_of_cheap_interval = 8;
+constexpr double steps_of_cheap_interval = 8, steps_of_cheap_tube = 4;
 constexpr double bound_over_mean =
     2.5; // row sum of the contacts' stiffness: all of the nearest sphere, half of three others
 
@@ -45,12 +45,12 @@ fem::Grid tube_around(const dem::Shape &shape, double low, double high, const Sl
   require(s.elements_along >= 0, "sleeve: elements along must not be negative");
   require(high > low, "sleeve: its ends must lie apart");
   fem::Tube tube;
-  tube.inner_radius = shape.radius / portable::cos(pi / s.elements_around);
+  tube.inner_radius = (shape.radius + s.gap) / portable::cos(pi / s.elements_around);
   tube.thickness = s.thickness;
   tube.z_low = low;
   tube.height = high - low;
   tube.elements_around = s.elements_around;
-  const double width = 2 * pi * shape.radius / s.elements_around;
+  const double width = 2 * pi * (shape.radius + s.gap) / s.elements_around;
   tube.elements_along = s.elements_along > 0
                             ? s.elements_along
                             : std::max(2, static_cast<int>(std::lround(tube.height / width)));
@@ -81,18 +81,32 @@ Sleeve::Sleeve(const dem::Particles &particles, const dem::Shape &shape, double 
 
 Sleeve::Sleeve(const dem::Particles &particles, const dem::Shape &shape, const EndPlatens &ends,
                const SleeveSettings &settings)
-    : Sleeve(particles, shape, ends.planes().low, ends.planes().high, settings) {
+    : Sleeve(particles, shape, ends.planes().low + settings.clearance,
+             ends.planes().high - settings.clearance, settings) {
   ends_.emplace(ends);
   if (top_turns()) solid_->prescribe_each(top_motion_);
 }
 
 void Sleeve::build(const dem::Particles &particles) {
-  const fem::SolidMaterial rubber{settings_.density * mass_scaling(),
-                           fem::NeoHookean::from_young(settings_.young_modulus, settings_.poisson_ratio)};
+  fem::SolidMaterial wall{settings_.density * mass_scaling(),
+                          fem::NeoHookean::from_young(settings_.young_modulus, settings_.poisson_ratio)};
+  if (settings_.metal) wall.hardening = settings_.metal->hardening(settings_.young_modulus);
   fem::load_solids();
-  solid_ = std::make_unique<fem::HyperelasticSolid>(tube_around(shape_, low_, high_, settings_), rubber,
+  solid_ = std::make_unique<fem::HyperelasticSolid>(tube_around(shape_, low_, high_, settings_), wall,
                                                     std::vector<int>{fem::inner_tag});
   contact_ = std::make_unique<ContactLayer>(particles, *solid_, settings_.contact);
+  if (on_platens()) hold_rims();
+  solid_->set_damping(settings_.mass_damping);
+  limit_ = find_limit();
+  const double gap = settings_.gap;
+  if (settings_.seat_depth > 0)
+    contact_->seat_within(particles, *solid_, settings_.seat_depth + gap, false,
+                          [gap](const Vector3 &) { return gap; });
+  volume_at_start_ = inner_volume();
+  ring_ = solid_->volume() / (high_ - low_);
+}
+
+void Sleeve::hold_rims() {
   const std::array<bool, 3> fixed = {settings_.bonded_rims, settings_.bonded_rims, true};
   const std::vector<int> below = solid_->nodes_of(fem::low_end_tag),
                          above = solid_->nodes_of(fem::high_end_tag);
@@ -105,11 +119,6 @@ void Sleeve::build(const dem::Particles &particles) {
   for (const int node : above)
     top_rim_places_.push_back(solid_->node_place(node) - Vector3{0, 0, high_});
   if (top_turns()) solid_->prescribe_each(top_motion_);
-  solid_->set_damping(settings_.mass_damping);
-  limit_ = find_limit();
-  if (settings_.seat_depth > 0) contact_->seat_within(particles, *solid_, settings_.seat_depth);
-  volume_at_start_ = inner_volume();
-  ring_ = solid_->volume() / (high_ - low_);
 }
 
 // As in the sleeve's own limit when all spheres flush with it press evenly.
@@ -120,8 +129,11 @@ double Sleeve::cheap_mass(double time_step) const {
   const SurfaceContact &p = contact_->parameters();
   const double springs =
       bound_over_mean * contact_->seats() * p.particle_stiffness * std::max(1.0, p.tangential_ratio);
-  const double interval = steps_of_cheap_interval * time_step / settings_.safety;
-  return std::max(1.0, springs / mass * 0.25 * interval * interval);
+  const double interval =
+      (yields() ? steps_of_cheap_tube : steps_of_cheap_interval) * time_step / settings_.safety;
+  // Rubber's own limit is far above that of its contacts.
+  const double own = yields() ? 1 / (own_limit_ * own_limit_) : 0.0;
+  return std::max(1.0, (own + springs / mass * 0.25) * interval * interval);
 }
 
 void Sleeve::fit(const dem::Particles &particles, double time_step) {
@@ -145,6 +157,7 @@ void Sleeve::drift(const Step &step, const Command &command) {
 }
 
 void Sleeve::finish(const Step &step) {
+  if (made_ == planned_ && ends_ && !on_platens()) require_clear_ends(step);
   try {
     take_loads();
   } catch (const fem::InvertedElement &e) {
@@ -155,9 +168,22 @@ void Sleeve::finish(const Step &step) {
   }
 }
 
+void Sleeve::require_clear_ends(const Step &step) const {
+  for (const auto &[tag, sense, plane] :
+       {std::tuple{fem::low_end_tag, -1.0, low_ - settings_.clearance + ends_->low.closure()},
+        {fem::high_end_tag, 1.0, high_ + settings_.clearance - ends_->high.closure()}})
+    for (const int node : solid_->nodes_of(tag))
+      if (sense * (solid_->node_place(node).z - plane) > 0)
+        throw NumericsStopped("step " + std::to_string(step.number + 1) +
+                              ": a platen has come to the end of the tube, which "
+                              "is loaded by the concrete alone; try a longer `sleeve.clearance` or a lower "
+                              "`loading.target_strain`");
+}
+
 void Sleeve::add_energy(dem::EnergyLedger &energy) const {
   ContactBoundary::add_energy(energy);
   energy.damping += lost();
+  energy.plastic += solid_->plastic_work();
   energy.bodies += stored();
   energy.boundary += work();
 }
@@ -176,6 +202,7 @@ fem::HyperelasticSolid &Sleeve::with_loads() const {
 
 double Sleeve::axial_force_beyond_pressure() const {
   const fem::HyperelasticSolid &solid = with_loads();
+  if (!on_platens()) return 0;
   const double bottom = solid.prescribed_force(bottom_motion_)[2], // N, of the platens on the sleeve
       top = solid.prescribed_force(top_motion_)[2];
   return 0.5 * (bottom - top) - pressure() * ring_;
@@ -243,6 +270,7 @@ void Sleeve::begin_interval(double dt, const RimMotion &rims) {
 
 // Platens have already made the first step of the interval.
 void Sleeve::kick_into(double interval, double dt, const RimMotion &rims) {
+  if (!on_platens()) return solid_->half_kick(interval);
   const auto follow = [&](int number, std::size_t node, const Vector3 &velocity, const Vector3 &place) {
     const Vector3 &rim = solid_->displacement()[node];
     solid_->set_prescribed_velocity(number, (1 / interval) * (place + (interval - dt) * velocity - rim));

@@ -1,22 +1,42 @@
-// A rubber sleeve around a specimen: a tube of hyperelastic elements. Its inner face touches the particles,
-// its outer face carries the cell's pressure, and its rims move with the platens; the upper rim turns with a
-// top platen on a seat, but puts no moment on it: the machine turns the rim.
+// A sleeve around a specimen: a tube of finite elements, of rubber in a cell or of steel that confines the
+// specimen because it is pressed by it. Its inner face touches the particles, its outer face carries the
+// cell's pressure, and its rims move with the platens; the upper rim turns with a top platen on a seat, but
+// puts no moment on it: the machine turns the rim. A tube that ends before the platens is free there.
 //
-// The stable step of rubber is tens of steps of the particles. So the sleeve is kicked once in an interval of
-// several steps, by velocity Verlet with the interval as step. Within the interval its nodes move at constant
-// velocity, so that the surface moves smoothly for the particles; at its end the nodes get the forces that
-// contacts, elements and pressure have then. The mean of the contacts over the interval would be half an
-// interval late, and a spring with a delay amplifies every oscillation.
+// The stable step of the sleeve is made several steps of the particles long, by its mass where need be. So
+// the sleeve is kicked once in an interval of several steps, by velocity Verlet with the interval as step.
+// Within the interval its nodes move at constant velocity, so that the surface moves smoothly for the
+// particles; at its end the nodes get the forces that contacts, elements and pressure have then. The mean of
+// the contacts over the interval would be half an interval late, and a spring with a delay amplifies every
+// oscillation.
 #pragma once
 
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "coupling/boundaries/platen.h"
 #include "dem/packing/specimen.h"
 #include "fem/hyperelastic_solid.h"
 
 namespace platen::coupling {
+
+// A wall of metal that yields (fem/materials/j2_plasticity.h).
+struct MetalSettings {
+  double yield_strength = not_given; // Pa
+  // Pa; not given: no hardening but that below, else that of structural steel (structural_steel.h).
+  double ultimate_strength = not_given;
+  double saturation = 0, saturation_rate = 0; // Pa, 1: of Voce's part
+  // Flow stress over plastic strain, after the yield strength; instead of the ultimate strength.
+  std::vector<fem::Hardening::Point> points;
+
+  // Throws std::invalid_argument where it is no hardening.
+  fem::Hardening hardening(double young_modulus) const;
+
+  static constexpr const char *name = "sleeve.metal";
+  template <class Visitor, class Self>
+  static void describe(Visitor &&v, Self &p);
+};
 
 struct SleeveSettings {
   double thickness = 3e-3;       // m
@@ -25,14 +45,21 @@ struct SleeveSettings {
   double density = 1100;         // kg/m^3
   // Around 0: faces five mean radii wide, to bridge the gaps between spheres; along 0: as long as wide.
   int elements_around = 0, elements_along = 0, elements_through = 1;
-  bool bonded_rims = true; // fixed to the platens' rims; else they slide along them
+  bool bonded_rims = true;            // fixed to the platens' rims; else they slide along them
+  std::optional<MetalSettings> metal; // none: rubber
+  double gap = 0;                     // m, between its inner face and the specimen
+  double clearance =
+      0; // m, by which each end stands off its platen: it is free then; 0: platens hold the ends
+  double stiffness =
+      0; // of its contacts, multiple of the mean bond's; 0: computed from a cell's pressure, else 1
+  double seat_layer = 1; // mean radii: spheres up to this depth are seated flush with its inner face
   // Of the sleeve alone; its inertia has hardly any effect. 0: chosen for a cheap run, once the time step of
   // the particles is known; 1 until then.
   double mass_scaling = 0;
-  double mass_damping = 1000; // 1/s, decay rate of its velocities
-  double safety = 0.5;        // interval over its limit
-  int most_steps = 200;       // of the particles in an interval
-  double seat_depth = 0;      // m: particles up to this depth are seated flush with its inner face; 0: none
+  double mass_damping = 1000;           // 1/s, decay rate of its velocities
+  double safety = 0.5;                  // interval over its limit
+  int most_steps = 200;                 // of the particles in an interval
+  double seat_depth = 0;                // m, the same; 0: none. Of tests by the seat layer
   SurfaceContact contact = of_rubber(); // of its inner face with the particles
 
   static SurfaceContact of_rubber() {
@@ -48,13 +75,25 @@ struct SleeveSettings {
 };
 
 template <class Visitor, class Self>
+void MetalSettings::describe(Visitor &&v, Self &p) {
+  v("yield_strength", p.yield_strength, "Pa", above(0), "Of a wall of metal.");
+  v("ultimate_strength", p.ultimate_strength, "Pa", above(0),
+    "Of structural steel, in tension: it hardens by the lines of Yun and Gardner 2017; not given: the flow "
+    "stress stays what it is at yield.");
+  v("saturation", p.saturation, "Pa", at_least(0), "What the flow stress gains at most by Voce's law.");
+  v("saturation_rate", p.saturation_rate, "1", at_least(0),
+    "Of Voce's law: gain = saturation (1 - exp(-rate x plastic strain)).");
+}
+
+template <class Visitor, class Self>
 void SleeveSettings::describe(Visitor &&v, Self &p) {
-  v("thickness", p.thickness, "m", above(0), "Wall of the rubber sleeve (Confinement = sleeve).");
-  v("young_modulus", p.young_modulus, "Pa", above(0), "Young modulus of the unstrained rubber.");
+  v("thickness", p.thickness, "m", above(0), "Wall of the sleeve (Confinement = sleeve).");
+  v("young_modulus", p.young_modulus, "Pa", above(0), "Young modulus of the unstrained wall.");
   v("poisson_ratio", p.poisson_ratio, "1", from_to_below(0, 0.5),
-    "Poisson ratio of the unstrained rubber: the nearer to one half, the less the pressure squeezes it and "
-    "the shorter its steps.");
-  v("density", p.density, "kg/m3", above(0), "Density of the rubber.");
+    "Poisson ratio of the unstrained wall. Of rubber: the nearer to one half, the less the pressure squeezes "
+    "it "
+    "and the shorter its steps.");
+  v("density", p.density, "kg/m3", above(0), "Density of the wall.");
   v("bonded_rims", p.bonded_rims, Words<bool>{{"bonded", true}, {"sliding", false}},
     "How the ends go with the platens: held on all sides, or along the axis alone.");
   v("elements_around", p.elements_around, between(0, 10000),
@@ -64,6 +103,17 @@ void SleeveSettings::describe(Visitor &&v, Self &p) {
   v("friction", p.contact.friction_static, "1", between(0, 5), "Coefficient of friction of grains on it.");
   v("contact_damping", p.contact.damping, "1", between(0, 1),
     "Fraction of critical damping of grains on it.");
+  v("gap", p.gap, "m", at_least(0), "Between the specimen and the inner face of a tube.");
+  v("clearance", p.clearance, "m", at_least(0),
+    "By which each end of a tube stands off its platen, so that the concrete alone is loaded; 0: platens "
+    "press "
+    "tube and concrete together.");
+  v("stiffness", p.stiffness, "1", between(0, 1000),
+    "Penalty stiffness of grains on it, as a multiple of the mean bond's; 0: that of the bond for a tube; "
+    "for "
+    "rubber by the pressure, which then presses a sphere in by some 4 % of its radius.");
+  v("seat_layer", p.seat_layer, "1", between(0, 10),
+    "Grains whose surface lies no deeper, in mean radii, lie flush with it from the start.");
   v("mass_damping", p.mass_damping, "1", at_least(0), "Rate at which its own velocities die away, 1/s.");
   v("mass_scaling", p.mass_scaling, "1", at_least(0),
     "Factor on its mass, 1 or more; 0: such that it is stepped about once in eight steps.");
@@ -97,8 +147,12 @@ public:
   void finish(const Step &step) override;
   bool follows_others() const override { return true; }
   bool can_be_carried() const override { return false; }
-  StepLimit limit(const dem::Particles &) const override { return {limit_, reason_of_limit}; }
-  double known_limit() const override { return limit_; } // s, stability limit of the next interval
+  StepLimit limit(const dem::Particles &) const override { return {known_limit(), reason_of_limit}; }
+  // s, stability limit of the next interval; of a tube whose mass is to be fitted to the step there is none
+  // yet.
+  double known_limit() const override {
+    return yields() && settings_.mass_scaling == 0 ? std::numeric_limits<double>::infinity() : limit_;
+  }
   void fit(const dem::Particles &particles, double time_step) override;
   void add_energy(dem::EnergyLedger &energy) const override;
   double pressure() const override { return solid_->pressure(fem::mantle_tag); }
@@ -111,6 +165,16 @@ public:
   const fem::LoadedSurface &surface() const override { return *solid_; } // its loads may not be summed yet
   using ContactBoundary::layer;
   using ContactBoundary::surface;
+  // Of the middle half of its height, means by volume (Pa), compression of the axis and tension of the hoop
+  // positive; the largest equivalent plastic strain anywhere; the fraction of elements that have yielded.
+  struct WallState {
+    double axial = 0, hoop = 0, force = 0; // Pa, Pa, N: of its section, compression positive
+    double plastic_strain = 0, yielded = 0;
+    double bulge = 0; // m, largest displacement of a node outwards
+  };
+  WallState wall_state() const;
+  double specimen_pressure() const; // Pa, of the specimen on the middle half of its inner face, mean
+  double slip() const;              // m, mean path along it of the specimen's spheres that touch it
   static constexpr const char *reason_of_limit =
       "the finite elements of the sleeve with the springs of its contacts";
 
@@ -127,6 +191,8 @@ public:
   int steps_of_interval() const { return planned_; }
   int steps_of_next_interval(double dt) const;                                    // of dt (s) each
   double inner_volume() const { return solid_->enclosed_volume(fem::inner_tag); } // m^3, of the specimen
+  bool yields() const { return settings_.metal.has_value(); }
+  bool on_platens() const { return settings_.clearance == 0; }
   // Of the enclosed volume, positive in compression.
   double volumetric_strain() const { return 1 - inner_volume() / volume_at_start_; }
   // N: force of the platens on its ends (the mean of both) in excess of the pressure in the rubber.
@@ -148,6 +214,8 @@ private:
   void kick_into(double interval, double dt, const RimMotion &rims);
   void turn_top_rim(double interval, double dt, const RimMotion &rims);
   bool top_turns() const { return ends_ && ends_->high.body().turns(); }
+  void hold_rims();
+  void require_clear_ends(const Step &step) const;
   double find_limit();
   fem::HyperelasticSolid &with_loads() const;
   double cheap_mass(double time_step) const;

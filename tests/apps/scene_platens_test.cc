@@ -131,7 +131,7 @@ TEST(ScenePlatens, what_platens_sleeve_and_loading_say_arrives) {
   EXPECT_EQ(told.loading.cell->sleeve->young_modulus, 2e6);
   EXPECT_EQ(told.loading.cell->sleeve->contact.friction_static, 0.1);
   EXPECT_EQ(told.loading.cell->sleeve->contact.dynamic(), 0.1);
-  EXPECT_EQ(told.loading.cell->sleeve_seat_depth, 2);
+  EXPECT_EQ(told.loading.cell->sleeve->seat_layer, 2);
   EXPECT_EQ(told.loading.unload_at, (std::vector<double>{0.001, 0.002}));
   EXPECT_EQ(told.loading.rate_multiplier, 4);
   EXPECT_EQ(told.time_step.safety, 0.3);

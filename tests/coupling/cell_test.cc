@@ -156,7 +156,7 @@ TEST(sleeve_cell, a_soft_sleeve_is_as_good_as_a_pressure_on_the_skin) {
   EXPECT_NEAR(a.strain.lateral() / b.strain.lateral(), 1, 0.03);
   EXPECT_NEAR(a.axial / a.gauge_axial / (b.axial / b.gauge_axial), 1, 0.01);
   EXPECT_NEAR(a.gauge_lateral / a.gauge_axial / (b.gauge_lateral / b.gauge_axial), 1, 0.05);
-  // SolidMaterial of so small a modulus carries next to nothing of the axial load.
+  // Rubber of so small a modulus carries next to nothing of the axial load.
   EXPECT_LT(std::abs(oil.sleeve_deviator()), 0.01 * a.axial);
 }
 
@@ -165,7 +165,7 @@ TEST(sleeve_cell, its_volume_also_has_what_its_springs_give_way) {
   double beyond[2];
   for (const int stiff : {0, 1}) {
     PlatenTestSettings settings = in_cell(10e6, true);
-    settings.loading.cell->sleeve_stiffness = stiff == 0 ? 0.02 : 0.04;
+    settings.loading.cell->sleeve->stiffness = stiff == 0 ? 0.02 : 0.04;
     PlatenTest problem(packed_cylinder(), settings);
     const dem::Gauge gauge(problem.model.particles, problem.shape(), problem.model.bonds.get());
     while (!problem.axial_stage())

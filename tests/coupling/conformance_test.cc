@@ -111,6 +111,12 @@ void add_stages(std::vector<Arrangement> &all) {
   s.loading.unload_at = {3e-3};
   add("sleeve_whose_platens_turn_round", thin_cylinder, s, {"consolidation", "compression", "cycling"});
   s = base;
+  SleeveSettings &tube = s.loading.tube.emplace();
+  tube.thickness = 1e-3, tube.young_modulus = 210e9, tube.poisson_ratio = 0.3, tube.density = 7850;
+  tube.metal.emplace().yield_strength = 20e6;
+  tube.elements_around = 12, tube.elements_through = 2, tube.mass_damping = 100;
+  add("tube_that_yields", thin_cylinder, s, {"compression"});
+  s = base;
   s.loading.rate_multiplier = 4;
   add("rate_that_falls_as_the_specimen_fails", thin_cylinder, s, {"compression"});
   s = six_platens();

@@ -1,0 +1,100 @@
+// What the wall of a sleeve bears, for measures of a tube around concrete.
+#include <algorithm>
+#include <cmath>
+
+#include "base/pi.h"
+#include "base/require.h"
+#include "coupling/boundaries/sleeve.h"
+#include "fem/materials/structural_steel.h"
+
+namespace platen::coupling {
+namespace {
+
+// The middle half of a height between its ends.
+bool in_middle(double z, double low, double high) {
+  return std::abs(z - 0.5 * (low + high)) <= 0.25 * (high - low);
+}
+
+} // namespace
+
+fem::Hardening MetalSettings::hardening(double young_modulus) const {
+  require(yield_strength > 0, "tube: its yield strength must be positive");
+  require(std::isnan(ultimate_strength) || points.empty(), "tube: an ultimate strength or points, not both");
+  require(!(ultimate_strength < yield_strength), "tube: its ultimate strength is below its yield strength");
+  fem::Hardening all;
+  if (ultimate_strength > yield_strength)
+    all = fem::structural_steel(yield_strength, ultimate_strength, young_modulus);
+  else
+    all.points[all.count++] = {0, yield_strength};
+  require(points.size() < fem::Hardening::most_points, "tube: at most 31 points after the yield strength");
+  for (const fem::Hardening::Point &point : points)
+    all.points[all.count++] = point;
+  all.saturation = saturation, all.rate = saturation_rate;
+  all.require_valid();
+  return all;
+}
+
+Sleeve::WallState Sleeve::wall_state() const {
+  const fem::HyperelasticSolid &solid = with_loads();
+  const std::vector<fem::CellStress> stresses = solid.cell_stresses();
+  const std::vector<double> strains = solid.plastic_strains();
+  WallState state;
+  double volume = 0, low = high_, high = low_; // m^3, m: of the cells in the middle half
+  for (std::size_t c = 0; c < stresses.size(); ++c) {
+    const fem::Corners reference = solid.mesh().gather(c, solid.mesh().nodes);
+    Vector3 middle{};
+    for (const Vector3 &corner : reference)
+      middle = middle + 0.125 * corner;
+    if (!strains.empty() && strains[c] > 0) state.yielded += 1;
+    if (!in_middle(middle.z, low_, high_)) continue;
+    const double own = solid.mesh().cells[c].volume * stresses[c].volume_ratio;
+    const double radius = std::hypot(middle.x, middle.y), tx = -middle.y / radius, ty = middle.x / radius;
+    const fem::Tensor &s = stresses[c].cauchy;
+    state.hoop += own * (tx * tx * s[0] + 2 * tx * ty * s[1] + ty * ty * s[4]);
+    state.axial -= own * s[8];
+    volume += own;
+    for (const int node : solid.mesh().cell_nodes[c])
+      low = std::min(low, solid.node_place(node).z), high = std::max(high, solid.node_place(node).z);
+  }
+  for (std::size_t n = 0; n < solid.mesh().nodes.size(); ++n) {
+    const Vector3 &x = solid.mesh().nodes[n], now = solid.node_place(static_cast<int>(n));
+    state.bulge = std::max(state.bulge, std::hypot(now.x, now.y) - std::hypot(x.x, x.y));
+  }
+  if (volume > 0) {
+    state.force = state.axial / (high - low);
+    state.axial /= volume, state.hoop /= volume;
+  }
+  if (!strains.empty()) {
+    state.yielded /= static_cast<double>(strains.size());
+    state.plastic_strain = *std::max_element(strains.begin(), strains.end());
+  }
+  return state;
+}
+
+// Of whole faces, so that force and area are of the same part.
+double Sleeve::specimen_pressure() const {
+  const fem::SurfaceMesh &inner = with_loads().surface();
+  std::vector<char> counts(inner.faces.size(), 0);
+  double area = 0, force = 0; // m^2, N
+  for (std::size_t f = 0; f < inner.faces.size(); ++f) {
+    const auto corner = [&](std::size_t k) {
+      return inner.vertices[static_cast<std::size_t>(inner.faces[f][k])];
+    };
+    const Vector3 middle = 0.25 * ((corner(0) + corner(1)) + (corner(2) + corner(3)));
+    if (!in_middle(middle.z, low_, high_)) continue;
+    counts[f] = 1;
+    area += 0.5 * norm(cross(corner(2) - corner(0), corner(3) - corner(1)));
+  }
+  for (const ActiveContact &contact : contact_->contacts())
+    if (counts[static_cast<std::size_t>(contact.face)]) force += contact.normal_force;
+  return area > 0 ? force / area : not_given;
+}
+
+double Sleeve::slip() const {
+  double sum = 0, count = 0;
+  for (const ActiveContact &contact : contact_->contacts())
+    sum += contact.slip, count += 1;
+  return count > 0 ? sum / count : 0;
+}
+
+} // namespace platen::coupling
