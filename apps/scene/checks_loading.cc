@@ -114,7 +114,9 @@ void SceneCheck::tube() const {
            "does not go with Sleeve/Kind = tube, which stands in no cell. Allowed: 0.");
   const coupling::SleeveSettings &wall = *loading.cell->sleeve;
   if (!parameters_.at("Sleeve/Modulus").changed() && loading.steel == Steel::custom)
-    refuse("Sleeve/Modulus", "has to be given for a tube of custom steel.");
+    refuse("Sleeve/Modulus",
+           "is that of rubber: a tube of custom steel needs its own. Allowed: that of the metal, or a "
+           "Sleeve/Steel.");
   if (wall.metal->ultimate_strength > 0 && !loading.hardening_file.empty())
     refuse("Sleeve/Hardening file", "does not go with Sleeve/Ultimate strength. Allowed: one of both.");
   if (!loading.hardening_file.empty()) read_hardening(loading.hardening_file, wall.metal->yield_strength);

@@ -48,6 +48,10 @@ TEST_F(Determinism, the_baseline_gives_the_same_bytes_on_an_older_processor) {
        {"Loading/Confinement = sleeve", "Loading/Confining pressure = 20 MPa",
         "Loading/Confining ramp = 0.1 ms", "Loading/Target strain = 0.004", "Sleeve/Thickness = 1 mm",
         "Sleeve/Elements around = 20"}},
+      {"tube",
+       {"Loading/Confinement = sleeve", "Sleeve/Kind = tube", "Sleeve/Steel = S235",
+        "Sleeve/Yield strength = 40 MPa", "Sleeve/Saturation = 20 MPa", "Sleeve/Saturation rate = 50",
+        "Loading/Target strain = 0.004", "Sleeve/Thickness = 0.5 mm"}},
       {"elastic",
        {"Platens/Kind = deformable", "Platens/Motion = explicit", "Loading/Target strain = 0.004"}}};
   for (const auto &[name, entries] : runs) {

@@ -65,6 +65,17 @@ const std::vector<Stopped> stops{
      {"body_energy_j"},
      {},
      {{"sleeve_steps_of_interval", 1, 1e9}}},
+    // Before it yields, and after.
+    {"tube",
+     "crushed.prm",
+     {"Loading/Confinement = sleeve", "Sleeve/Kind = tube", "Sleeve/Steel = S235",
+      "Sleeve/Yield strength = 40 MPa", "Loading/Target strain = 0.008", "Sleeve/Thickness = 0.5 mm"},
+     {5, 60},
+     300,
+     {"sleeve.pvd"},
+     {"body_energy_j", "plastic_work_j", "tube_hoop_stress_pa"},
+     {},
+     {{"tube_plastic_work_j", 1e-6, 1e9}}},
     // In the hydrostatic stage, and after the peak; the platen turns the rim of the sleeve.
     {"seat_and_sleeve",
      "crushed.prm",

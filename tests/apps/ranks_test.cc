@@ -56,6 +56,17 @@ TEST_F(Ranks, elastic_platens_and_a_sleeve_change_no_byte) {
   EXPECT_EQ(unlike(one, "three"), "");
 }
 
+TEST_F(Ranks, a_tube_that_yields_changes_no_byte) {
+  const std::vector<std::string> around{
+      "-s", "Loading/Confinement = sleeve", "-s", "Sleeve/Kind = tube",
+      "-s", "Sleeve/Steel = S235",          "-s", "Sleeve/Yield strength = 40 MPa",
+      "-s", "Sleeve/Thickness = 0.5 mm",    "-s", "Loading/Target strain = 0.004"};
+  const fs::path one = whole(around);
+  EXPECT_GT(summary_in(one)["tube_plastic_work_j"], 0);
+  run_on(3, "three", around);
+  EXPECT_EQ(unlike(one, "three"), "");
+}
+
 // Its areas are found anew in every 400th step, in which many bonds break: ranks know only of those before.
 TEST_F(Ranks, a_pressed_skin_with_pieces_that_come_loose_changes_no_byte) {
   const std::vector<std::string> around{

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 
 #include "apps/read_scenes.h"
 #include "apps/run/problem_setup.h"
+#include "apps/scene/tubes.h"
 #include "coupling/platens_of_test.h"
 
 namespace platen::apps {
@@ -51,6 +53,62 @@ TEST(ScenePlatens, a_default_of_platens_sleeve_and_loading_is_stated_once) {
   expect_same(*held.loading.cell, coupling::CellSettings(), {"pressure"});
   expect_same(*held.loading.cell->sleeve, coupling::SleeveSettings());
   EXPECT_FALSE(plain.platens.elastic || plain.loading.cell || plain.loading.wall);
+}
+
+TEST(ScenePlatens, a_tube_arrives_with_its_steel) {
+  const Entries tube{"Specimen/Shape = cylinder",  "Specimen/Radius = 50 mm", "Loading/Confinement = sleeve",
+                     "Sleeve/Kind = tube",         "Sleeve/Steel = S275",     "Sleeve/Thickness = 2 mm",
+                     "Sleeve/Clearance = 1 mm",    "Sleeve/Gap = 0.1 mm",     "Sleeve/Friction = 0.2",
+                     "Sleeve/Elements through = 3"};
+  const auto settings = [&](const Entries &more) {
+    Entries all = tube;
+    all.insert(all.end(), more.begin(), more.end());
+    return problem_settings(scene_with(all)).loading;
+  };
+  const coupling::LoadingSettings told = settings({});
+  ASSERT_TRUE(told.tube && told.tube->metal);
+  EXPECT_FALSE(told.cell);
+  const coupling::SleeveSettings &wall = *told.tube;
+  EXPECT_EQ(wall.thickness, 2e-3);
+  EXPECT_EQ(wall.young_modulus, 210e9);
+  EXPECT_EQ(wall.poisson_ratio, 0.3);
+  EXPECT_EQ(wall.density, 7850);
+  EXPECT_EQ(wall.metal->yield_strength, 275e6);
+  EXPECT_EQ(wall.metal->ultimate_strength, 430e6);
+  EXPECT_EQ(wall.clearance, 1e-3);
+  EXPECT_EQ(wall.gap, 1e-4);
+  EXPECT_EQ(wall.contact.friction_static, 0.2);
+  EXPECT_EQ(wall.elements_through, 3);
+  EXPECT_EQ(wall.mass_damping, 100);
+  EXPECT_FALSE(wall.bonded_rims);
+  EXPECT_EQ(settings({"Sleeve/Yield strength = 300 MPa"}).tube->metal->yield_strength, 300e6);
+  EXPECT_EQ(settings({"Sleeve/Rims = bonded"}).tube->bonded_rims, true);
+  const coupling::LoadingSettings rubber =
+      problem_settings(scene_with({"Specimen/Shape = cylinder", "Specimen/Radius = 50 mm",
+                                   "Loading/Confinement = sleeve", "Loading/Confining pressure = 1 MPa"}))
+          .loading;
+  EXPECT_FALSE(rubber.tube || rubber.cell->sleeve->metal);
+}
+
+TEST(ScenePlatens, the_hardening_of_a_tube_is_read_from_a_file) {
+  const auto read = [](const std::string &text) {
+    const std::string path = ::testing::TempDir() + "/hardening.csv";
+    std::ofstream(path) << text;
+    return read_hardening(path, 300e6);
+  };
+  const auto points = read("# of a coupon\nflow_stress_mpa,plastic_strain\n300,0\n320,0.01\n390,0.08\n");
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_EQ(points[0].strain, 0.01);
+  EXPECT_EQ(points[1].stress, 390e6);
+  EXPECT_EQ(read("plastic_strain;flow_stress_pa\n0,02;3,1e8\n").at(0).strain, 0.02);
+  for (const char *bad : {"plastic_strain,flow_stress_pa\n0.02,2.9e8\n", "plastic_strain,flow_stress_pa\n",
+                          "plastic_strain,flow_stress_pa\n0.02,3e8\n0.02,4e8\n", "plastic_strain\n0.02\n",
+                          "plastic_strain,flow_stress_pa\n0.02,3e8\n0.03,2.99e8\n"})
+    EXPECT_THROW(read(bad), InputError) << bad;
+  std::string many = "plastic_strain,flow_stress_pa\n";
+  for (int k = 1; k <= 32; ++k)
+    many += std::to_string(0.01 * k) + ",3e8\n";
+  EXPECT_THROW(read(many), InputError);
 }
 
 TEST(ScenePlatens, layers_arrive_with_their_materials) {

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy
 
-from . import cracks, curves, laboratory, platens, specimen, view, words
+from . import cracks, curves, laboratory, platens, specimen, tube, view, words
 from .curves import axis_stresses, draw_stress_path, has_stress_path
 from .envelope import fit_line, mohr, strength_over_pressure
 from .house import BLACK, CYCLE, GREY, MARKS, MPA, chart
@@ -119,10 +119,10 @@ def page_of_runs(runs, measured=None):
     sections = [
         Section("Comparison", [*pictures(runs), *specimen.comparison(runs)] if several else []),
         Section("Stress and energy", curves.pictures_of_curves(run, measured), [laboratory.differences(run, measured)] if measured else []),
-        curves.section_of_stages(run), curves.section_of_sides(run), Section("Acoustic emission", curves.pictures_of_events(run)),
+        Section("The tube", tube.pictures_of_tube(run)), curves.section_of_stages(run), curves.section_of_sides(run), Section("Acoustic emission", curves.pictures_of_events(run)),
         Section("Interactive view", [], element=partial(view.element, run) if run.series("specimen") else None),
         Section("The specimen", specimen.pictures_of_specimen(run)), Section("Cracks", cracks.pictures_of_cracks(run)),
-        Section("Platens and ends", platens.pictures_of_ends(run)), Section("The sleeve", specimen.pictures_of_sleeve(run)),
+        Section("Platens and ends", platens.pictures_of_ends(run)), Section("The tube, as it deforms" if run.has("total_load_n") else "The sleeve", specimen.pictures_of_sleeve(run)),
         Section("Computing time", curves.pictures_of_costs(run))]
     if several:  # all after the comparison is of the first run
         sections[1:] = [section and section._replace(heading=f"{section.heading}: {run.name}") for section in sections[1:]]

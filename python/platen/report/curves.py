@@ -17,7 +17,7 @@ from .run import STRAIN, STRESS, listed, number_in
 # Column, words, colour, line of the energies; the share of the work from which on a term stands in the first chart.
 MAIN = (("boundary_work_j", "work of the platens", BLACK, "-"), ("bond_energy_j", "elastic energy of bonds", BLUE, "-"),
         ("fracture_work_j", "{fracture}", VERMILION, "-"), ("friction_work_j", "friction", ORANGE, "-"),
-        ("damping_work_j", "damping", GREY, "-"), ("plastic_work_j", "plastic work of bonds ({law})", PURPLE, "-"))
+        ("damping_work_j", "damping", GREY, "-"), ("plastic_work_j", "{plastic}", PURPLE, "-"))
 FRACTURE = {"elasto damage plastic": "damage of bonds", "facet": "damage and slip of bonds"}  # by law; else broken bonds
 SMALL = (("contact_energy_j", "elastic energy of contacts", SKY, "-"),
          ("body_energy_j", "elastic energy of {bodies}", GREEN, "-"), ("kinetic_energy_j", "kinetic energy", "#882255", "--"))
@@ -52,6 +52,11 @@ def _over_strain(axes, runs, columns, factor=1.0, since=False):
 
 def _over_time(runs):
     return all(run.goes_back for run in runs)  # over a strain that goes back curves would be a tangle
+
+
+def along(run):
+    """What the curves of one run are drawn over: its strain (mm/m), or its time (ms) where that goes back."""
+    return _along(run, [run])
 
 
 def _along(run, runs):
@@ -118,7 +123,8 @@ def stress_strain(runs, name, caption):
 
 
 # ---- energies
-def _along_title(run):
+def along_title(run):
+    """Title of the axis of along()."""
     return "Time (ms)" if run.goes_back else run.strain_title + ", tension positive" * (_sign([run]) < 0)
 
 
@@ -133,14 +139,15 @@ def _terms(run, main):
 def energies(axes, run, main=True):
     """Over strain (time, where that goes back), where the work of the platens went; with main=False its small terms and the residual."""
     law, terms = run.entry("Effects/Bond"), _terms(run, main)
-    bodies = [name for name, there in (("platens", "deformable" in run.entries.values()), ("sleeve", run.series("sleeve")),
+    plastic = "plastic work of bonds" + (" and tube" if run.has("total_load_n") else "") + f" ({law or 'all laws'})"
+    bodies = [name for name, there in (("platens", "deformable" in run.entries.values()), ("tube" if run.has("total_load_n") else "sleeve", run.series("sleeve")),
                                        ("machine", run.entry("Platens/Machine stiffness"))) if there]
     small = max(numpy.nanmax(numpy.abs(run.h[column]), initial=0) for column, *_ in terms) < _SMALL_JOULES
     for column, words, colour, line in terms:
-        label = words.format(law=law or "all laws", fracture=FRACTURE.get(law, "broken bonds"), bodies=" and ".join(bodies) or "platens")
+        label = words.format(plastic=plastic, fracture=FRACTURE.get(law, "broken bonds"), bodies=" and ".join(bodies) or "platens")
         axes.plot(_along(run, [run]), run.h[column] * (1e3 if small else 1), line, color=colour, label=label)
     axes.locator_params(axis="y", nbins=6)
-    titled(axes, _along_title(run), "Energy (mJ)" if small else "Energy (J)", 2)
+    titled(axes, along_title(run), "Energy (mJ)" if small else "Energy (J)", 2)
 
 
 # ---- discs, bars, cells
@@ -165,14 +172,14 @@ def deviator(axes, run):
     """Deviator over strain."""
     _over_strain(axes, [run], (("deviator_pa", "axial stress less the pressure of the cell", BLACK, "-"),
                                ("sleeve_deviator_pa", "carried by the ends of the sleeve", PURPLE, "--")), MPA)
-    titled(axes, _along_title(run), "Deviator (MPa)", 2)
+    titled(axes, along_title(run), "Deviator (MPa)", 2)
 
 
 def confined_volume(axes, run):
     """Volumetric strains over strain: of the gauge, and of all that is within a sleeve."""
     _over_strain(axes, [run], (("volumetric_strain", "gauge (middle half)", GREEN, "-"),
                                ("volumetric_strain_sleeve", "all within the sleeve", PURPLE, "--")), MM, since=True)
-    titled(axes, _along_title(run), "Volumetric\nstrain (mm/m)", 2)
+    titled(axes, along_title(run), "Volumetric\nstrain (mm/m)", 2)
 
 
 def cell_pressure(axes, run):

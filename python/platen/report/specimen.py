@@ -339,10 +339,11 @@ def pictures_of_sleeve(run):
              for k, (time, when) in enumerate(later)]
             for which, factor, words in ((0, 100, "circumferential stretch (%)"), (2, MPA, "pressure of the spheres (MPa)"),
                                          (3, MM, "slip of the spheres (mm)"))]
+    name = "tube" if run.has("total_load_n") else "sleeve"
+    gaps = "" if name == "tube" else " (in gaps between spheres the pressure of the cell acts on the sleeve alone)"
     return [
-        *_row("sleeve", "Half of the specimen in its sleeve (brown), as they are deformed. Spheres are coloured by outward displacement: "
-              "where the sleeve bulges, the specimen fails. Each panel has its own scale. The largest 5 % have the last colour.",
+        *_row("sleeve", f"Half of the specimen in its {name} (brown), as they are deformed. Spheres are coloured by outward displacement: "
+              f"where the {name} bulges, the specimen fails. Each panel has its own scale. The largest 5 % have the last colour.",
               outward_displacement, [(run, time, words) for time, words in (zero, *later)], foot=FOOT, sleeve=True),
-        Picture("sleeve_unrolled", "The inner face of the sleeve, unrolled: its circumferential stretch, the pressure of the spheres "
-                "on it (in gaps between spheres the pressure of the cell acts on the sleeve alone), and the slip of the spheres "
-                "along it. Each panel has its own scale; the outer 2 % have the last colours.", rows, 1.5, titles=True, bar=True)]
+        Picture("sleeve_unrolled", f"The inner face of the {name}, unrolled: its circumferential stretch, the pressure of the spheres "
+                f"on it{gaps}, and the slip of the spheres along it. Each panel has its own scale; the outer 2 % have the last colours.", rows, 1.5, titles=True, bar=True)]
