@@ -39,6 +39,8 @@ GROUPS = [
         Scene("triaxial_concrete", COMPRESS, "stress_strain"),
         Scene("brittle_concrete_triaxial", COMPRESS, "stress_strain"),
         Scene("triaxial_cement", COMPRESS, "stress_strain"),
+        Scene("filled_tube", COMPRESS, "sleeve"),
+        Scene("greased_tube", COMPRESS, "tube"),
         Scene("hydrostatic_concrete", COMPRESS, "stress_strain"),
         Scene("uniaxial_strain_concrete", COMPRESS, "stress_strain"),
     ]),

@@ -7,6 +7,7 @@
 #include "base/pi.h"
 #include "tests/fem/metal.h"
 #include "tests/fem/rubber_sleeve.h"
+#include "tests/measured.h"
 #include "tests/same_state.h"
 
 namespace platen::fem::yielding_tube_test {
@@ -86,7 +87,7 @@ TEST(yielding_tube, a_thick_elastic_tube_agrees_with_lame_at_second_order) {
     errors.push_back(std::abs(ring.pressure() / lame_pressure(u, 2) - 1));
     EXPECT_EQ(ring.solid().plastic_work(), 0);
   }
-  EXPECT_LT(errors.back(), 2e-3);
+  measured::expect_below(70, "thick_tube_over_Lame", errors.back(), 2e-3);
   for (std::size_t k = 1; k < errors.size(); ++k)
     EXPECT_NEAR(std::log2(errors[k - 1] / errors[k]), 2, 0.15) << k;
 }
@@ -104,7 +105,7 @@ TEST(yielding_tube, a_thick_tube_yields_through_at_its_limit_pressure) {
     for (const double strain : ring.solid().plastic_strains())
       EXPECT_GT(strain, 0);
   }
-  EXPECT_LT(std::abs(errors.back()), 0.01);
+  measured::expect_below(70, "thick_tube_at_its_limit_pressure", std::abs(errors.back()), 0.01);
   for (std::size_t k = 1; k < errors.size(); ++k)
     EXPECT_NEAR(std::log2(errors[k - 1] / errors[k]), 2, 0.25) << k;
 }
@@ -120,7 +121,8 @@ TEST(yielding_tube, a_thin_tube_yields_at_its_hoop_stress) {
     const double thickness = wall * std::exp(held ? -hoop : -0.5 * hoop); // a free ring shortens as it thins
     const double expected = held ? 2 / std::sqrt(3.0) * yield * thickness / (inner + u + 0.5 * thickness)
                                  : yield * thickness / (inner + u + 0.25 * thickness);
-    EXPECT_NEAR(ring.pressure() / expected, 1, 1e-3) << held;
+    measured::expect_below(70, held ? "thin_tube_held" : "thin_tube_free",
+                           std::abs(ring.pressure() / expected - 1), 1e-3);
   }
 }
 
@@ -145,7 +147,7 @@ TEST(yielding_tube, an_explicit_path_closes_its_energy_balance) {
     work = solid.plastic_work();
     EXPECT_GT(work, 0.3 * (solid.prescribed_work() + solid.pressure_work()));
   }
-  EXPECT_LT(worst[0], 1e-3 * work);
+  measured::expect_below(70, "energy_residual_over_plastic_work", worst[0] / work, 1e-3);
   EXPECT_LT(worst[1], 0.6 * worst[0]);
 }
 
