@@ -46,6 +46,8 @@ Words against_bare(Test t) {
     return {"the pressure changes along its path: the ratio of stress and strain is no Young's modulus"};
   if (t.problem.wall() != nullptr)
     return {"a wall holds the sides: the ratio of stress and strain is constrained_modulus_pa"};
+  if (t.problem.tube() != nullptr)
+    return {"a tube holds the sides: the ratio of stress and strain is no Young's modulus"};
   return when(t.presses_sides(),
               "platens hold the sides: the ratio of stress and strain is no Young's modulus");
 }
@@ -65,7 +67,7 @@ Words against_bonds(Test t, bool holds, CalibratedFigure needed) {
   return when(holds && !reason.empty(), reason);
 }
 bool is_confined(Test t) {
-  return t.problem.cell() || t.problem.wall() != nullptr || t.presses_sides();
+  return t.problem.cell() || t.problem.wall() != nullptr || t.problem.tube() != nullptr || t.presses_sides();
 }
 
 constexpr const char *no_axial_stage = "the test has no stage that loads the specimen along its axis";

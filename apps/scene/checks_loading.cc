@@ -92,7 +92,7 @@ void SceneCheck::loading() const {
     refuse("Platens/Top/Control", "needs Loading/Ramp > 0: the time to the full stress.");
   if (loading.bending()) need("Platens/Span", scene_.platens.span, "a bar needs its supports.");
   if (loading.tubed()) tube();
-  if (loading.hydrostatic() && !loading.confined())
+  if (loading.hydrostatic() && loading.confinement == ConfinementKind::none)
     refuse("Loading/Test",
            "needs Loading/Confinement = particles, sleeve: the lateral surface is pressed too.");
   const bool varied = situation().given_by_program("Loading/Confining pressure");
@@ -109,6 +109,7 @@ void SceneCheck::loading() const {
 
 void SceneCheck::tube() const {
   const Loading &loading = scene_.loading;
+  if (loading.hydrostatic()) refuse("Sleeve/Kind", "presses nothing in a hydrostatic test. Allowed: rubber.");
   if (loading.cell->pressure > 0)
     refuse("Loading/Confining pressure",
            "does not go with Sleeve/Kind = tube, which stands in no cell. Allowed: 0.");

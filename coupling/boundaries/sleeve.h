@@ -116,7 +116,8 @@ void SleeveSettings::describe(Visitor &&v, Self &p) {
     "Grains whose surface lies no deeper, in mean radii, lie flush with it from the start.");
   v("mass_damping", p.mass_damping, "1", at_least(0), "Rate at which its own velocities die away, 1/s.");
   v("mass_scaling", p.mass_scaling, "1", at_least(0),
-    "Factor on its mass, 1 or more; 0: such that it is stepped about once in eight steps.");
+    "Factor on its mass, 1 or more; 0: such that it is stepped about once in eight steps, a tube once in "
+    "four.");
 }
 
 // Motion of the ends and pressure for the next interval: rims move to the positions of the platens, which are

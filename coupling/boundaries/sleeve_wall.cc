@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/pi.h"
 #include "base/require.h"
 #include "coupling/boundaries/sleeve.h"
 #include "fem/materials/structural_steel.h"

@@ -66,6 +66,33 @@ TEST_F(Figures, of_a_test_that_ends_before_its_peak_are_none_but_the_moduli_of_s
   expect_reason(s, {"end_damage_top", "cone_top"}, "has not fallen to 0.8");
 }
 
+TEST_F(Figures, of_a_tube_are_those_of_the_row_of_the_largest_load) {
+  const nlohmann::json s =
+      crush("tube", {"Loading/Confinement = sleeve", "Sleeve/Kind = tube", "Sleeve/Steel = S235",
+                     "Sleeve/Yield strength = 40 MPa", "Sleeve/Thickness = 0.5 mm",
+                     "Loading/Target strain = 0.006", "Expect/pattern ="});
+  const std::vector<double> load = column("tube", "total_load_n"),
+                            top = column("tube", "axial_stress_top_pa"),
+                            bottom = column("tube", "axial_stress_bottom_pa");
+  const std::size_t row = static_cast<std::size_t>(std::max_element(load.begin(), load.end()) - load.begin());
+  for (const auto &[figure, name] :
+       std::map<std::string, std::string>{{"largest_load_n", "total_load_n"},
+                                          {"strain_at_largest_load", "axial_strain_platen"},
+                                          {"tube_load_at_largest_n", "tube_load_n"},
+                                          {"tube_axial_stress_at_largest_pa", "tube_axial_stress_pa"},
+                                          {"tube_hoop_stress_at_largest_pa", "tube_hoop_stress_pa"},
+                                          {"tube_pressure_at_largest_pa", "tube_pressure_pa"}}) {
+    const double expected = column("tube", name)[row];
+    EXPECT_NEAR(s[figure].get<double>(), expected, 1e-9 * std::abs(expected)) << figure;
+    EXPECT_GT(expected, 0) << figure;
+  }
+  const double area = s["section"]["area_m2"];
+  EXPECT_NEAR(load[row] - column("tube", "tube_load_n")[row], 0.5 * (top[row] + bottom[row]) * area,
+              1e-9 * load[row]);
+  expect_reason(s, moduli, "a tube holds the sides");
+  EXPECT_TRUE(has(s["effects"], "tube"));
+}
+
 TEST_F(Figures, an_expectation_of_one_that_is_none_says_why) {
   crush("run", {"Loading/Target strain = 0.0002", "Expect/strength_pa = 1 Pa ... 1 GPa"}, {}, 1);
   EXPECT_TRUE(contains(outcome_.error, "strength_pa was not measured (no peak was reached"));

@@ -75,7 +75,7 @@ const std::vector<Stopped> stops{
      {"sleeve.pvd"},
      {"body_energy_j", "plastic_work_j", "tube_hoop_stress_pa"},
      {},
-     {{"tube_plastic_work_j", 1e-6, 1e9}}},
+     {{"tube_plastic_work_j", 1e-6, 1e9}, {"largest_load_n", 1, 1e9}}},
     // In the hydrostatic stage, and after the peak; the platen turns the rim of the sleeve.
     {"seat_and_sleeve",
      "crushed.prm",
