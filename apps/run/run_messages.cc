@@ -12,6 +12,7 @@
 #include "apps/run/ranks.h"
 #include "apps/run/specimen_setup.h"
 #include "apps/run/test_record.h"
+#include "apps/scene/layers.h"
 #include "apps/scene/surfaces.h"
 #include "base/pi.h"
 
@@ -93,7 +94,8 @@ std::string description_of(const Scene &scene, const coupling::PlatenTest &test,
     if (const coupling::Platen *platen = test.platen(side))
       seats.push_back(fmt::format("{} {}", platen->name(), platen->layer().seats()));
   text += fmt::format("  seated spheres: {}\n", fmt::join(seats, ", ")) + text_of_cover(test);
-  text += text_of(scene.general.quality, *scene.parameters) + text_of(scene.platens);
+  text += text_of(scene.general.quality, *scene.parameters) + text_of(scene.platens) +
+          text_of_layers(scene.platens);
   text += fmt::format("  effects on:  {}\n  effects off: {}\n", fmt::join(effects_on(scene), ", "),
                       fmt::join(effects_off(scene), ", "));
   text += fmt::format("  time step {:.4g} s ({}), {:.0f} steps to the target strain\n", test.time_step(),

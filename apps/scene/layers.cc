@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include <fmt/format.h>
+
 #include "apps/scene/parameters.h"
 #include "apps/scene/values.h"
 
@@ -76,14 +78,42 @@ const fem::Material &material_named(const std::string &name, const std::string &
                                     const Parameters &parameters, const Platens &platens) {
   if (name == own_material) return platens.material;
   std::vector<std::string> known{own_material};
-  for (const NamedMaterial &one : platens.layer_materials) {
+  for (const NamedMaterial &one : platens.layer_materials) { // a scene's own numbers go before a ready word's
     if (one.name == name) return one.material;
     known.push_back(one.name);
+  }
+  for (const ReadyMaterial &one : ready_materials()) {
+    if (one.named.name == name) return one.named.material;
+    known.push_back(one.named.name);
   }
   const std::string nearest = nearest_word(name, known);
   parameters.refuse(path, "names \"" + name + "\", which Platens/Layer materials does not give." +
                               (nearest.empty() ? "" : " Did you mean \"" + nearest + "\"?") +
                               " Allowed: " + joined(known) + ".");
+}
+
+// Gent, On the relation between indentation hardness and Young's modulus, Trans. Inst. Rubber Ind. 34 (1958):
+// of a rubber that does not change its volume, from its hardness Shore A. Pa.
+constexpr double modulus_of_hardness(double shore) {
+  return 0.0981e6 * (56 + 7.62336 * shore) / (0.137505 * (254 - 2.54 * shore));
+}
+
+// What Gent's rubber has is 1/2; elements of finite stiffness need less, and lock when it is much nearer.
+constexpr double poisson_of_rubber = 0.49;
+
+ReadyMaterial neoprene(double shore) {
+  constexpr double density = 1230; // kg/m3, polychloroprene without fillers
+  const std::string hardness = "A" + shortest_text(shore);
+  return {{"neoprene " + hardness, {density, modulus_of_hardness(shore), poisson_of_rubber}},
+          "hardness Shore " + hardness + " by Gent 1958; no ring holds its rim"};
+}
+
+std::string documentation(const ReadyMaterial &of) {
+  const fem::Material &is = of.named.material;
+  return of.named.name + ": " +
+         fmt::format("{:.4g} MPa, {:.3g}, {:.4g} kg/m3", is.young_modulus * 1e-6, is.poisson_ratio,
+                     is.density) +
+         " (" + of.source + ")";
 }
 
 // Returns how thick they are together (m), as far as that is given.
@@ -99,6 +129,48 @@ double supply(const Parameters &parameters, const Platens &platens, const std::s
 }
 
 } // namespace
+
+// Poisson's ratio of gypsum: pores take a solid's towards .2 (Roberts and Garboczi, Proc. R. Soc. A 458
+// (2002)); density of a cast of .6 of water to plaster. Sulphur has no word: no modulus of capping compound
+// was found.
+const std::vector<ReadyMaterial> &ready_materials() {
+  static const std::vector<ReadyMaterial> all = [] {
+    std::vector<ReadyMaterial> made(1);
+    made[0].named = {"gypsum", {1200, 9.8e9, 0.2}};
+    made[0].source =
+        "cast and dry, some 1e5 kg/cm2: Kishitani and Hirai, Trans. Archit. Inst. Japan, series of 1977, "
+        "part 3";
+    for (const double shore : {50., 60., 70.}) // as ASTM C1231 names them
+      made.push_back(neoprene(shore));
+    return made;
+  }();
+  return all;
+}
+
+std::string layer_documentation() {
+  std::string text;
+  for (const ReadyMaterial &one : ready_materials())
+    text += (text.empty() ? "" : "; ") + documentation(one);
+  return text + ".";
+}
+
+std::string text_of_layers(const Platens &platens) {
+  const auto names = [](const std::vector<NamedLayer> &layers, const std::string &word) {
+    return std::any_of(layers.begin(), layers.end(),
+                       [&](const NamedLayer &one) { return one.material == word; });
+  };
+  std::string text;
+  for (const ReadyMaterial &one : ready_materials()) {
+    const std::string &word = one.named.name;
+    const bool own = std::any_of(platens.layer_materials.begin(), platens.layer_materials.end(),
+                                 [&](const NamedMaterial &given) { return given.name == word; });
+    if (platens.deformable && !own &&
+        (names(platens.layers, word) || names(platens.top_layers, word) ||
+         names(platens.bottom_layers, word)))
+      text += "    " + documentation(one) + "\n";
+  }
+  return text;
+}
 
 std::vector<NamedLayer> read_layers(const std::string &text) {
   return read_each<NamedLayer>(text, ',', "layer", read_layer);

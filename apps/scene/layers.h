@@ -19,8 +19,19 @@ std::vector<NamedLayer> read_layers(const std::string &text);
 // density of each; "" is none.
 std::vector<NamedMaterial> read_layer_materials(const std::string &text);
 
+// A material of caps and pads that has a word of its own.
+struct ReadyMaterial {
+  NamedMaterial named;
+  std::string source;
+};
+const std::vector<ReadyMaterial> &ready_materials();
+// What the words stand for, and whence: of all, and for the screen of those that the platens use, a line
+// each.
+std::string layer_documentation();
+std::string text_of_layers(const Platens &platens);
+
 // Gives the layers of the library their materials, and a plate without a thickness that of its layers. Throws
-// InputError for a material that the scene does not give.
+// InputError for a material that neither the scene gives nor a ready word.
 void supply_layers(const Parameters &parameters, Platens &platens);
 
 } // namespace platen::apps

@@ -76,13 +76,17 @@ void declare_layers(Section &section, Platens &platens) {
              "Of deformable platens, from the specimen outward. What they leave of the Thickness is of the "
              "platens' own Young modulus, Poisson ratio and Density, which is the material platen; without a "
              "Thickness platens are as thick as their layers. Of a mesh the physical volumes are the layers, "
-             "in their order: the names alone count. Empty: one material, or the Pad on it.")
+             "in their order: the names alone count. Empty: one material, or the Pad on it. Ready words, "
+             "with Young "
+             "modulus, Poisson ratio and density: " +
+                 layer_documentation())
       .member("platens.elastic.layers");
   section.value(
       "Layer materials", platens.layer_materials, "",
       "of each its name, Young modulus, Poisson ratio and density, semicolons between them: \"rubber: 5 "
       "MPa, 0.49, 1100 kg/m3; steel: 210 GPa, 0.3, 7850 kg/m3\"",
-      read_layer_materials, "What the names in Layers mean; all but platen have to be given.");
+      read_layer_materials,
+      "What the names in Layers mean; all but platen and the ready words have to be given.");
 }
 
 void declare_own_layers(const Section &section, coupling::Side side, std::vector<NamedLayer> &layers) {

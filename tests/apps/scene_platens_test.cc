@@ -8,6 +8,7 @@
 
 #include "apps/read_scenes.h"
 #include "apps/run/problem_setup.h"
+#include "apps/scene/layers.h"
 #include "apps/scene/tubes.h"
 #include "coupling/platens_of_test.h"
 
@@ -136,6 +137,44 @@ TEST(ScenePlatens, layers_arrive_with_their_materials) {
   const coupling::PlatenSettings &given = other.platens;
   EXPECT_DOUBLE_EQ(given.thickness, 30e-3);
   EXPECT_EQ(given.bottom.thickness, 0); // what its layers leave is platen
+}
+
+TEST(ScenePlatens, caps_have_ready_words_that_a_scene_may_give_itself) {
+  const coupling::PlatenTestSettings settings = problem_settings(
+      scene_with({"Platens/Kind = deformable", "Platens/Layers = gypsum 1 mm, platen 10 mm",
+                  "Platens/Top/Layers = neoprene A50 4 mm, neoprene A70 2 mm, neoprene A60 1 mm",
+                  "Platens/Bottom/Layers = gypsum 2 mm, neoprene A60 3 mm",
+                  "Platens/Layer materials = neoprene A60: 9 MPa, 0.4, 1500 kg/m3"}));
+  const coupling::PlatenSettings &told = settings.platens;
+  EXPECT_EQ(told.elastic->layers[0].material.young_modulus, 9.8e9);
+  EXPECT_EQ(told.elastic->layers[0].material.poisson_ratio, 0.2);
+  EXPECT_EQ(told.elastic->layers[0].material.density, 1200);
+  // Gent by hand: .0981 (56 + 381.168) / (.137505 x 127), .0981 (56 + 533.6352) / (.137505 x 76.2) MPa.
+  EXPECT_NEAR(told.top.layers[0].material.young_modulus, 2.455812e6, 1);
+  EXPECT_NEAR(told.top.layers[1].material.young_modulus, 5.520507e6, 1);
+  EXPECT_EQ(told.top.layers[0].material.poisson_ratio, 0.49);
+  EXPECT_EQ(told.top.layers[0].material.density, 1230);
+  EXPECT_DOUBLE_EQ(told.top.layers[0].thickness, 4e-3); // the number of the word is none of a thickness
+  EXPECT_EQ(told.bottom.layers[1].material.young_modulus, 9e6);
+  EXPECT_EQ(told.top.layers[2].material.young_modulus, 9e6);
+}
+
+TEST(ScenePlatens, the_screen_tells_what_the_words_of_the_layers_stand_for) {
+  Platens platens;
+  platens.deformable = true;
+  platens.layers = {{"platen", 1e-3}};
+  EXPECT_EQ(text_of_layers(platens), "");
+  platens.bottom_layers = {{"gypsum", 1e-3}};
+  platens.top_layers = {{"neoprene A60", 1e-3}, {"neoprene A70", 1e-3}};
+  platens.layer_materials = {{"neoprene A70", {1500, 9e6, 0.4}}};
+  EXPECT_EQ(
+      text_of_layers(platens),
+      "    gypsum: 9800 MPa, 0.2, 1200 kg/m3 (cast and dry, some 1e5 kg/cm2: Kishitani and Hirai, Trans. "
+      "Archit. Inst. Japan, series of 1977, part 3)\n"
+      "    neoprene A60: 3.605 MPa, 0.49, 1230 kg/m3 (hardness Shore A60 by Gent 1958; no ring holds "
+      "its rim)\n");
+  platens.deformable = false;
+  EXPECT_EQ(text_of_layers(platens), "");
 }
 
 TEST(ScenePlatens, what_platens_sleeve_and_loading_say_arrives) {
