@@ -27,7 +27,10 @@ public:
     driving();
     if (p_.elastic) elastic();
     if (p_.machine.yields()) machine();
-    if (p_.spherical_seat || p_.seat_friction_arm != 0) seat();
+    if (is_disc())
+      no_seat();
+    else if (p_.spherical_seat || p_.seat_friction_arm != 0)
+      seat();
     if (p_.eccentricity != 0 || p_.tilt != 0) oblique();
     if (s_.ends > Ends::ground) faces();
     if (presses_by_hertz(s_)) hertz();
@@ -106,6 +109,16 @@ private:
               "and no stage that asks the top platen for a stress.");
   }
 
+  bool is_disc() const { return shape_ != nullptr && shape_->kind == dem::ShapeKind::disc; }
+
+  void no_seat() {
+    const std::string why =
+        "is of cylinders and boxes: over the rim of a disc a platen would turn away. Allowed: ";
+    refuse_if(p_.spherical_seat, "platens.spherical_seat", why + "fixed.");
+    refuse_if(p_.seat_friction_arm != 0, "platens.seat_friction_arm", why + "0.");
+    refuse_if(p_.eccentricity != 0, "platens.eccentricity", why + "0.");
+  }
+
   void seat() {
     refuse_if(!p_.spherical_seat, "platens.seat_friction_arm",
               "is of a platen on a seat. Allowed: 0, or `platens.spherical_seat` spherical.");
@@ -124,9 +137,9 @@ private:
     const auto with = [&](bool broken, const std::string &why, const std::string &allowed) {
       refuse_if(broken, p_.tilt != 0 ? "platens.tilt" : "platens.eccentricity", why + " Allowed: " + allowed);
     };
-    refuse_if(p_.eccentricity != 0 && !p_.spherical_seat, "platens.eccentricity",
+    refuse_if(p_.eccentricity != 0 && !p_.spherical_seat && !is_disc(), "platens.eccentricity",
               "is of a platen that turns about the load. Allowed: 0, or `platens.spherical_seat` spherical.");
-    if (shape_ != nullptr && shape_->kind != dem::ShapeKind::disc) {
+    if (shape_ != nullptr && !is_disc()) {
       const double half = half_width(*shape_);
       refuse_if(std::abs(p_.eccentricity) >= half, "platens.eccentricity",
                 "puts the load beside the specimen. Allowed: -" + text_of(half) + " ... " + text_of(half) +
@@ -139,7 +152,6 @@ private:
     with(has_sides(), "does not go with platens on the sides.", "0.");
     with(l_.start_strain > 0, "needs `loading.start_strain` = 0: the static solve is between square ends.",
          "0.");
-    with(shape_ != nullptr && shape_->kind == dem::ShapeKind::disc, "is of cylinders and boxes.", "0.");
   }
 
   void faces() {
@@ -151,7 +163,7 @@ private:
     with(p_.glued, "needs `platens.glued` = contact: what is glued fits.");
     with(p_.span > 0, "does not go with three point bending.");
     with(l_.start_strain > 0, "needs `loading.start_strain` = 0: the static solve is between flat ends.");
-    with(shape_ != nullptr && shape_->kind == dem::ShapeKind::disc, "is of cylinders and boxes.");
+    with(is_disc(), "is of cylinders and boxes: a disc is pressed on its rim.");
   }
 
   void hertz() {

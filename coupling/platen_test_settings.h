@@ -80,7 +80,8 @@ struct PlatenSettings {
   double seat_friction_arm =
       0;                   // m, the moment at which the seat begins to turn over the load; 0: it turns freely
   double eccentricity = 0; // m, along x, of the seat from the axis: the load acts there
-  double tilt = 0; // rad, about y, of the top platen as it meets the specimen: lowest at -x if positive
+  double tilt =
+      0; // rad, of the top platen as it meets the specimen: lowest at -x, over a disc at -y, if positive
   // m, between the edges of a platen and the planes of its neighbours, which may close by that much; 0: a
   // fiftieth of the specimen's length along that axis.
   double edge_gap = 0;
@@ -253,8 +254,7 @@ void PlatenSettings::describe(Visitor &&v, Self &p) {
     "Along x, of the spherical seat from the axis: the middle of the load.");
   v("tilt", p.tilt, "rad", between(-0.1, 0.1),
     "Of a rigid top platen about y, before it meets the specimen: 0 is square to the axis; positive: the "
-    "side "
-    "of -x comes first.");
+    "side of -x comes first. Over a disc about x: the side of -y comes first.");
   v("spherical_seat", p.spherical_seat, Words<bool>{{"fixed", false}, {"spherical", true}},
     "Spherical: the top platen turns freely about the middle of its face, which the machine moves; a "
     "deformable one with its clamp.");

@@ -27,6 +27,16 @@ double platen_plane(const dem::Specimen &s, Side side, Ends ends) {
   return plane;
 }
 
+namespace {
+
+// m, that the middle of a tilted platen's face lies above the edge that comes first.
+double lift(const dem::Shape &shape, double tilt) {
+  const bool disc = shape.kind == dem::ShapeKind::disc;
+  return std::abs(portable::sin(tilt)) * (disc ? 0.5 * shape.width_y : half_width(shape));
+}
+
+} // namespace
+
 double depth_of_end(const dem::Shape &shape, const PlatenTestSettings &settings, Side side,
                     const Vector3 &centre) {
   if (axis_of(side) != 2) return 0;
@@ -35,23 +45,26 @@ double depth_of_end(const dem::Shape &shape, const PlatenTestSettings &settings,
   const double tilt = side == Side::top ? settings.platens.tilt : 0;
   return (faced ? dem::depth_of_face(settings.ends, settings.end_height, shape, centre, settings.end_seed)
                 : 0) +
-         std::abs(portable::sin(tilt)) * half_width(shape) + portable::sin(tilt) * centre.x;
+         lift(shape, tilt) + portable::sin(tilt) * centre[tilted_along(shape)];
 }
 
 namespace {
 
 // The middle of the top platen's face, about which it turns on a seat.
 Vector3 seat_of(const dem::Specimen &s, const PlatenTestSettings &settings) {
-  const double up = std::abs(portable::sin(settings.platens.tilt)) * half_width(s.shape);
-  return {settings.platens.eccentricity, 0, platen_plane(s, Side::top, settings.ends) + up};
+  return {settings.platens.eccentricity, 0,
+          platen_plane(s, Side::top, settings.ends) + lift(s.shape, settings.platens.tilt)};
 }
 
-// A plane platen turned about y as it meets the specimen, whose edge it touches.
+// A plane platen turned as it meets the specimen, whose edge it touches.
 fem::Grid tilted(const fem::Grid &grid, const dem::Shape &shape, double tilt, double plane) {
-  const double c = portable::cos(tilt), s = portable::sin(tilt), up = std::abs(s) * half_width(shape);
-  return fem::moved_grid(grid, [=](const Vector3 &x) {
+  const double c = portable::cos(tilt), s = portable::sin(tilt), up = lift(shape, tilt);
+  return fem::moved_grid(grid, [=, along = tilted_along(shape)](const Vector3 &x) {
     const double z = x.z - plane;
-    return Vector3{c * x.x - s * z, x.y, plane + up + s * x.x + c * z};
+    Vector3 moved = x;
+    moved[along] = c * x[along] - s * z;
+    moved.z = plane + up + s * x[along] + c * z;
+    return moved;
   });
 }
 

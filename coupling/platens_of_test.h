@@ -24,6 +24,10 @@ double platen_plane(const dem::Specimen &specimen, Side side, Ends ends);
 inline double half_width(const dem::Shape &shape) { // m, along x
   return shape.kind == dem::ShapeKind::box ? 0.5 * shape.width_x : shape.radius;
 }
+// Along which a tilted platen rises: x, and of a disc its axis, y, so that it meets one end of the rim first.
+inline int tilted_along(const dem::Shape &shape) {
+  return shape.kind == dem::ShapeKind::disc ? 1 : 0;
+}
 // m, that a seated sphere at this place lies farther from the platen than its end plane: by the form of the
 // end face, and by the tilt of the top platen.
 double depth_of_end(const dem::Shape &shape, const PlatenTestSettings &settings, Side side,

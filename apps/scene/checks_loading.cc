@@ -34,8 +34,11 @@ void SceneCheck::test() const {
   if (!loads()) return;
   const SpecimenSection &specimen = scene_.specimen;
   const bool lies = scene_.loading.bending() && specimen.shape == SpecimenShape::bar && !specimen.round(),
-             known = specimen.packing != PackingKind::file && program_.presses != Presses::discs && !lies;
+             discs = program_.presses == Presses::discs;
   dem::Shape shape = specimen_shape(scene_);
+  if (discs && shape.kind == dem::ShapeKind::cylinder) shape = dem::disc(shape.radius, shape.height);
+  const bool known =
+      specimen.packing != PackingKind::file && !lies && (!discs || shape.kind == dem::ShapeKind::disc);
   if (program_.presses_specimens()) shape.notch = specimen.notch;
   for (const coupling::Fault &fault :
        coupling::faults(settings_without_files(scene_), known ? &shape : nullptr)) {
@@ -59,10 +62,12 @@ void SceneCheck::asked_of_program() const {
       refuse(path, "is for platen-compress. Allowed: " + allowed + ".");
   };
   only(platens.sides != PlatenSides::two, "Platens/Sides", "two");
-  only(platens.spherical_seat, "Platens/Top/Seat", "fixed");
-  only(platens.seat_friction_arm != 0, "Platens/Top/Seat friction arm", "0");
-  only(platens.eccentricity != 0, "Platens/Top/Eccentricity", "0");
-  only(platens.tilt != 0, "Platens/Top/Tilt", "0");
+  if (program_.presses != Presses::discs) { // of discs the library says which have no meaning
+    only(platens.spherical_seat, "Platens/Top/Seat", "fixed");
+    only(platens.seat_friction_arm != 0, "Platens/Top/Seat friction arm", "0");
+    only(platens.eccentricity != 0, "Platens/Top/Eccentricity", "0");
+    only(platens.tilt != 0, "Platens/Top/Tilt", "0");
+  }
   only(loading.start_strain > 0, "Loading/Start strain", "0");
   only(loading.bending(), "Loading/Test", "compression");
   only(loading.sleeved(), "Loading/Confinement", "none, particles");

@@ -215,6 +215,23 @@ TEST(Faults, ends_and_loads_may_be_imperfect_where_that_means_something) {
       cylinder(), dem::cylinder(0.02, 0.04));
 }
 
+TEST(Faults, a_disc_is_met_by_a_tilted_platen_but_has_no_ends_for_a_seat) {
+  const auto seat = [](Settings &s) { s.platens.spherical_seat = true; };
+  Settings split = cylinder();
+  split.platens.strip_width = 2e-3;
+  dem::Shape disc = dem::cylinder(0.02, 0.04);
+  disc.kind = dem::ShapeKind::disc, disc.width_y = 0.02;
+  expect_faults(
+      {{"", "", [](Settings &s) { s.platens.tilt = 0.01; }},
+       {"platens.spherical_seat", "rim of a disc", seat},
+       {"platens.seat_friction_arm", "rim of a disc",
+        [](Settings &s) { s.platens.seat_friction_arm = 1e-3; }},
+       {"platens.eccentricity", "rim of a disc", [](Settings &s) { s.platens.eccentricity = 1e-3; }},
+       {"ends", "a disc is pressed on its rim",
+        [](Settings &s) { s.ends = Ends::convex, s.end_height = 1e-4; }}},
+      split, disc);
+}
+
 TEST(Faults, a_run_starts_strained_where_that_can_be_solved_for) {
   Settings sound = cylinder();
   sound.loading.start_strain = 1e-3;

@@ -30,24 +30,28 @@ dem::Specimen mirrored(dem::Specimen specimen) {
 }
 
 struct Load {
-  double force = 0;  // N, on a platen
-  double middle = 0; // m, x of its resultant
+  double force = 0;   // N, on a platen
+  double middle = 0;  // m, x of its resultant
+  double along_y = 0; // m
+  double push_y = 0;  // N
 };
 
 // The mean over so many steps from a closure on.
 Load load_at(PlatenTest &problem, double strain, int steps = 1000, bool top = true) {
   while (problem.closure_strain() < strain)
     advance_to(problem, problem.steps() + 50);
-  double moment = 0;
+  Vector3 moment{};
   Load load;
   for (int k = 0; k < steps; ++k) {
     advance_to(problem, problem.steps() + 1);
     const fem::Body &body = top ? problem.top().body() : problem.bottom().body();
-    moment += body.moment({0, 0, top ? problem.shape().height : 0}).y;
+    moment += body.moment({0, 0, top ? problem.shape().height : 0});
     load.force += body.total_force().z;
+    load.push_y += body.total_force().y;
   }
-  load.middle = -moment / load.force;
-  load.force /= steps;
+  load.middle = -moment.y / load.force;
+  load.along_y = moment.x / load.force;
+  load.force /= steps, load.push_y /= steps;
   return load;
 }
 
@@ -138,6 +142,29 @@ TEST(imperfect_ends, mirrored_tests_give_mirrored_results) {
   const Load beside = of(s, 0.005), beyond = of(m, 0.005, mirrored(packed_cylinder()));
   EXPECT_NEAR(beside.force, beyond.force, 1e-6 * beside.force);
   EXPECT_NEAR(beside.middle, -beyond.middle, 1e-6 * packed_cylinder().shape.radius);
+}
+
+// A disc is met at one end of its axis first, under a strip and under a whole platen.
+TEST(imperfect_ends, a_tilted_platen_splits_a_disc_from_one_end_of_its_axis) {
+  for (const double strip : {0.0, 1.5e-3}) {
+    PlatenTestSettings flat = split(strip);
+    flat.time_step.fixed_step = 0.5 * PlatenTest(disc(), flat).time_step(); // the same for a mirrored disc
+    PlatenTestSettings tilted = flat, turned = flat;
+    tilted.platens.tilt = slope, turned.platens.tilt = -slope;
+    dem::Specimen other = disc();
+    for (Vector3 &c : other.centre)
+      c.y = -c.y;
+    const double strain = 4e-3;
+    const Load level = of(flat, strain, disc()), one = of(tilted, strain, disc()),
+               two = of(turned, strain, other);
+    EXPECT_NEAR(one.force, two.force, 1e-6 * one.force) << strip;
+    EXPECT_NEAR(one.along_y, -two.along_y, 1e-6 * disc().shape.width_y) << strip;
+    EXPECT_NEAR(one.middle, two.middle, 1e-6 * disc().shape.width_y) << strip;
+    EXPECT_LT(one.along_y - level.along_y, -0.1 * disc().shape.width_y) << strip;
+    EXPECT_NEAR(one.push_y / one.force, -std::tan(slope), 1e-6) << strip; // without friction along the normal
+    EXPECT_LT(one.force, 0.95 * level.force) << strip;
+    EXPECT_GT(one.force, 0.2 * level.force) << strip; // the middle is as high as half of the rise
+  }
 }
 
 } // namespace
