@@ -63,6 +63,33 @@ class OfARun(InRun):
         state.write_text("opening_m,area_m2\n-1e-5,1e-6\n")
         self.assertNotIn("crack_widths", [p.name for p in cracks.pictures_of_cracks(TestRun(self.path))])
 
+    def test_open_cracks_are_drawn_wide_and_narrow_in_the_colours_of_one_scale(self):
+        rows = [(-1e-5, 0), (6e-5, -1), (1.5e-4, -1), (9e-4, 1), (2e-5, -1), (5e-8, -1)]  # opening, sign of y
+        (self.path / "crack_state.csv").write_text("mode,time_s,x_m,y_m,z_m,nx,ny,nz,area_m2,opening_m\n" + "".join(
+            f"tension,1,0,{0.01 * y},{0.01 + 0.015 * k},0,1,0,2e-5,{opening}\n" for k, (opening, y) in enumerate(rows)))
+        run = TestRun(self.path)
+        drawn = {}
+        original, cracks.draw_half = cracks.draw_half, lambda axes, extent, found, colours: drawn.update({len(drawn): (found, colours)})
+        try:
+            figure = house.figure_of({p.name: p for p in cracks.pictures_of_cracks(run)}["crack_openings"])
+        finally:
+            cracks.draw_half = original
+        self.assertEqual([axes.get_title() for axes in figure.axes[:2]], ["1 up to 50 µm (both halves)", "3 wider than 50 µm (both halves)"])
+        (narrow, its), (wide, theirs) = drawn[0], drawn[1]
+        numpy.testing.assert_allclose(narrow.place, [[0, -0.01, 0.07]])
+        numpy.testing.assert_allclose(wide.place[:, 2], [0.025, 0.04, 0.055])
+        for opening, colour in zip((2e-5, 6e-5, 1.5e-4, 9e-4), [*its, *theirs]):  # the scale is .1 to 900 um
+            numpy.testing.assert_allclose(colour, house.VIRIDIS(math.log(opening / 1e-7) / math.log(9000))[:3], atol=0.01)
+
+    def test_only_the_near_half_is_drawn(self):
+        figure = house.figure_of(house.chart("empty", "", lambda axes: axes.set_axis_off(), heights=2))
+        found = cracks.Cracks(numpy.array([[0, -0.01, 0.05], [0, 0.01, 0.07]]), numpy.array([[0, 1.0, 0]] * 2), numpy.full(2, 2e-5), None, None)
+        cracks.draw_half(figure.axes[0], CYLINDER, found, numpy.array([[1.0, 0, 0], [0, 0, 1.0]]))
+        image = figure.axes[0].images[0].get_array()
+        red, blue = ((image[..., k] > image[..., 2 - k] + 0.2 * image.max()).any() for k in (0, 2))
+        self.assertTrue(red)
+        self.assertFalse(blue)
+
     def setUp(self):
         super().setUp()
         self.rows = list(made_up_run.cracks(self.spheres))

@@ -3,7 +3,7 @@ from collections import namedtuple
 from functools import partial
 
 import numpy
-from matplotlib.colors import Normalize, to_rgb
+from matplotlib.colors import LogNorm, Normalize, to_rgb
 
 from ..errors import InputError
 from .house import BLUE, MM, SKY, VERMILION, VIRIDIS, Picture, bars, chart, colour_bar, legend_above, titled
@@ -84,6 +84,15 @@ def edges(extent):
     return rims + [numpy.array([[x, 0, extent.bottom], [x, 0, extent.top]]) for x in (-w, w)]
 
 
+def draw_half(axes, extent, cracks, colours):
+    """Those in the half y < 0, as discs of their areas."""
+    scene, shown = Scene(axes, extent, margin=0.06), cracks.place[:, 1] <= 0
+    scene.spheres(cracks.place[shown], numpy.sqrt(cracks.area / numpy.pi)[shown], colours[shown], cracks.normal[shown])
+    scene.show()
+    for line in edges(extent):
+        scene.line(line)
+
+
 def discs(axes, run, which):
     """The bonds broken up to the fall to 0.8 of the peak in the half y < 0, as discs of their areas: those "in tension", those "in shear";
     or those "before the peak", those "after the peak", coloured by their time over that of the peak."""
@@ -95,11 +104,7 @@ def discs(axes, run, which):
         colours = numpy.broadcast_to(to_rgb(VERMILION if which == "in tension" else BLUE), cracks.place.shape)
     else:
         chosen, colours = (cracks.time < run.peak_time) == (which == "before the peak"), VIRIDIS(norm(over_peak))[:, :3]
-    scene, shown = Scene(axes, run.extent, margin=0.06), chosen & (cracks.place[:, 1] <= 0)
-    scene.spheres(cracks.place[shown], numpy.sqrt(cracks.area / numpy.pi)[shown], colours[shown], cracks.normal[shown])
-    scene.show()
-    for line in edges(run.extent):
-        scene.line(line)
+    draw_half(axes, run.extent, cracks.where(chosen), colours[chosen])
     axes.set_title(f"{chosen.sum()} {which.replace('peak', run.peak_words)} (both halves)")
     if which == "after the peak":
         colour_bar(axes, VIRIDIS, norm, f"Time over that of the {run.peak_words}")
@@ -164,6 +169,20 @@ def widths(axes, run):
     titled(axes, "Opening of the crack (µm)", "Area of broken\nbonds (%)")
 
 
+def openings(axes, run, wide):
+    """Broken bonds that are open at the end, as discs coloured by their opening: those wider than 50 um, or the others above .1 um."""
+    state = run.table("crack_state")
+    opening = state["opening_m"]
+    place, normal = (numpy.column_stack([state[name] for name in names]) for names in (("x_m", "y_m", "z_m"), ("nx", "ny", "nz")))
+    norm = LogNorm(NARROWEST * 1e6, numpy.nanmax(opening) * 1e6)
+    chosen = opening > WIDTHS[0] if wide else (opening > NARROWEST) & (opening <= WIDTHS[0])
+    cracks = Cracks(place, normal, state["area_m2"], state["mode"] == "tension", state["time_s"]).where(chosen)
+    draw_half(axes, run.extent, cracks, VIRIDIS(norm(opening[chosen] * 1e6))[:, :3])
+    axes.set_title(f"{chosen.sum()} {'wider than' if wide else 'up to'} {WIDTHS[0] * 1e6:.0f} µm (both halves)")
+    if wide:
+        colour_bar(axes, VIRIDIS, norm, "Opening (µm)")
+
+
 def pictures_of_cracks(run):
     """The Pictures of the section "Cracks" that the files of a run allow."""
     if run.table("cracks") is None or not run.series("specimen"):
@@ -193,4 +212,7 @@ def pictures_of_cracks(run):
         pictures.append(chart("crack_widths", "Widths of the cracks at the end of the run: area of broken bonds by their opening. Beside the lines, "
                               f"at 50, 100 and 200 µm: the share that is wider. Pressed together, or below .1 µm, and not drawn: {closed:.0f} %. Of parts that are "
                               "crushed, openings are distances in a heap.", widths, run=run, heights=2.6, margin=0.9))
+        pictures.append(panels("crack_openings", "Broken bonds by their opening at the end of the run, in the half specimen, as discs of their size "
+                               "where they were before the test: up to 50 µm (left), and wider (right). Below .1 µm none is drawn.",
+                               [partial(openings, run=run, wide=wide) for wide in (False, True)], [extent], True, margin=0.06))
     return pictures
