@@ -56,7 +56,7 @@ GROUPS = [
         Scene("concrete_tension", COMPRESS, "damage"),
         Scene("bending_concrete", COMPRESS, "damage"),
         Scene("notched_beam", COMPRESS, "damage"),
-        Scene("brazilian_concrete", BRAZILIAN, "crack_times"),
+        Scene("brazilian_concrete", BRAZILIAN, "crack_openings"),
     ]),
     ("Cement, concrete and shale of Oñate et al. 2015", [
         Scene("onate_cement", COMPRESS, "damage"),
