@@ -24,6 +24,10 @@ def ends(form, height, *further):
     return [f"Specimen/Ends = {form}", f"Specimen/End height = {height} mm", *further]
 
 
+def caps(layers):
+    return ["Platens/Kind = deformable", "Platens/Motion = quasi-static", f"Platens/Layers = {layers}"]
+
+
 # name: entries, over which case, change that a laboratory states in % and what it says of it
 CASES = {
     "perfect": ([], None, None, ""),
@@ -40,6 +44,10 @@ CASES = {
     "convex by 0.25 mm": (ends("convex", 0.25), "perfect", None, ""),
     "both ends convex by 0.25 mm": (ends("convex", 0.25, "Specimen/End faces = both"), "perfect", None, ""),
     "concave by 0.25 mm": (ends("concave", 0.25), "perfect", None, ""),
+    "between elastic steel": (caps("platen 10 mm"), "perfect", None, ""),
+    "capped by gypsum, 1 mm": (caps("gypsum 1 mm, platen 10 mm"), "between elastic steel", -2, "sulphur caps under ground ends, 45 MPa, NISTIR 5405"),
+    "capped by gypsum, 2.7 mm": (caps("gypsum 2.7 mm, platen 10 mm"), "capped by gypsum, 1 mm", -6, f"thick cap, thickness not stated, {NRMCA}"),
+    "capped by gypsum, 8 mm": (caps("gypsum 8 mm, platen 10 mm"), "capped by gypsum, 1 mm", -6, f"thick cap, thickness not stated, {NRMCA}"),
     "both ends rough by 0.5 mm": (ends("rough", 0.5, "Specimen/End faces = both"), "perfect", -27, f"before capping, {NRMCA}"),
 }
 
@@ -73,4 +81,5 @@ def main():
               f"{100 * max(s['energy_residual_relative'] for s in runs[name]):.1g} | {', '.join(patterns)} |")
 
 
-main()
+if __name__ == "__main__":
+    main()
