@@ -72,7 +72,8 @@ CsvWriter::CsvWriter(const std::filesystem::path &path, std::vector<std::string>
 }
 
 void require_resumable(const std::filesystem::path &path, const std::vector<std::string> &columns,
-                       std::uint64_t length) {
+                       std::uint64_t length, const std::string &checkpoint) {
+  const std::string of = checkpoint.empty() ? "" : " " + checkpoint;
   const auto refuse = [&](const std::string &fault) {
     throw CheckpointError(fmt::format(
         "{}: error: {}; put the file back as the run wrote it, or start the run anew with --overwrite",
@@ -86,10 +87,11 @@ void require_resumable(const std::filesystem::path &path, const std::vector<std:
     refuse("its header line is not that of this run");
   stream.seekg(0, std::ios::end);
   if (const auto size = static_cast<std::uint64_t>(stream.tellg()); size < length)
-    refuse(fmt::format("has {} bytes, it had {} at the checkpoint", size, length));
+    refuse(fmt::format("has {} bytes, it had {} at the checkpoint{}", size, length, of));
   char last = '\0';
   if (length >= header.size()) stream.seekg(static_cast<std::streamoff>(length) - 1).get(last);
-  if (last != '\n') refuse(fmt::format("no row ends at byte {}, where the checkpoint continues", length));
+  if (last != '\n')
+    refuse(fmt::format("no row ends at byte {}, where the checkpoint{} continues", length, of));
 }
 
 void CsvWriter::sync() {

@@ -63,9 +63,9 @@ private:
 };
 
 // Throws CheckpointError, with what to do, if a table cannot be continued after its first `length` bytes: it
-// is missing, shorter, has other columns, or no row ends there.
+// is missing, shorter, has other columns, or no row ends there. `checkpoint`: the file that says the length.
 void require_resumable(const std::filesystem::path &path, const std::vector<std::string> &columns,
-                       std::uint64_t length);
+                       std::uint64_t length, const std::string &checkpoint = "");
 
 // A table that is written at one go: it stands under its name with all rows or not at all. Failures throw
 // OutputError, and a former file stays.

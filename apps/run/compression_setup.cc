@@ -130,7 +130,8 @@ void CompressionRun::set_up(const dem::Specimen &specimen, const FileMarks &mark
   record_.emplace(scene_, *test_, results_, paths_, std::move(sampler), expected_steps_);
   setup_seconds_ = output_.seconds();
   if (command_.dry_run) return;
-  if (resumes_) record_->require_tables(marks);
+  if (resumes_)
+    record_->require_tables(marks, newest_whole_checkpoint(paths_.checkpoints()).path.filename().string());
   if (exchange) {
     ranks_ = exchange.get();
     ranks_->largest(0); // nothing is written while another rank still reads what an earlier part has left

@@ -58,9 +58,10 @@ void Record::resume(const FileMarks &marks) {
   if (scene_.model.crack_log) cracks_.emplace(paths_.cracks(), crack_columns, marks.cracks_bytes);
 }
 
-void Record::require_tables(const FileMarks &marks) const {
-  require_resumable(paths_.history(), history_names(&test_), marks.history_bytes);
-  if (scene_.model.crack_log) require_resumable(paths_.cracks(), crack_columns, marks.cracks_bytes);
+void Record::require_tables(const FileMarks &marks, const std::string &checkpoint) const {
+  require_resumable(paths_.history(), history_names(&test_), marks.history_bytes, checkpoint);
+  if (scene_.model.crack_log)
+    require_resumable(paths_.cracks(), crack_columns, marks.cracks_bytes, checkpoint);
 }
 
 void Record::observe(const Moment & /*now*/) {

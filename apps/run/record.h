@@ -25,7 +25,8 @@ public:
   void begin(const std::optional<Sample> &as_packed);
   // Goes on after what a checkpoint marks. Throws CheckpointError where the tables are not those of the run.
   void resume(const FileMarks &marks);
-  void require_tables(const FileMarks &marks) const; // the same errors, before anything is changed
+  // The same errors, before anything is changed. `checkpoint`: its file.
+  void require_tables(const FileMarks &marks, const std::string &checkpoint) const;
   // Called after each row of history.csv.
   void listen(std::function<void(const Sample &)> listener) { listener_ = std::move(listener); }
 

@@ -293,7 +293,7 @@ void declare_loading(Parameters &parameters, Loading &loading) {
            {"particles", ConfinementKind::particles},
            {"sleeve", ConfinementKind::sleeve}},
           "How the lateral surface is pressed; particles: by forces on those of the surface; sleeve: by oil "
-          "through rubber of finite elements.")
+          "through rubber of finite elements, or by a tube (Sleeve/Kind).")
       .member("loading.cell");
   alone("pressure", "Confining pressure");
   alone("ramp", "Confining ramp");
