@@ -16,6 +16,9 @@ using By = dem::Weakening::By;
 // Of a tube: the ends that it leaves free together, of the height; its gap, of the radius.
 constexpr double most_clearance = 0.5, most_gap = 0.1;
 
+// Of structural steel, over its yield strength: the yield point lies well before the end of the plateau.
+constexpr double least_modulus_of_steel = 100;
+
 class Rules {
 public:
   Rules(const PlatenTestSettings &settings, const dem::Shape *shape)
@@ -279,6 +282,13 @@ private:
               "is below the yield strength. Allowed: " + text_of(metal.yield_strength) + " Pa or more.");
     refuse_if(!std::isnan(metal.ultimate_strength) && !metal.points.empty(), "sleeve.metal.ultimate_strength",
               "does not go with points of hardening. Allowed: one of both.");
+    refuse_if(metal.ultimate_strength > metal.yield_strength &&
+                  tube.young_modulus < least_modulus_of_steel * metal.yield_strength,
+              "sleeve.young_modulus",
+              "is too low beside the yield strength for the lines of structural steel: " +
+                  text_of(metal.yield_strength) +
+                  " Pa. Allowed: " + text_of(least_modulus_of_steel * metal.yield_strength) +
+                  " Pa or more, or no ultimate strength.");
     refuse_if((metal.saturation > 0) != (metal.saturation_rate > 0), "sleeve.metal.saturation_rate",
               "and the saturation go together. Allowed: both above 0, or none.");
   }

@@ -72,15 +72,18 @@ Sleeve::WallState Sleeve::wall_state() const {
 
 // Of whole faces, so that force and area are of the same part.
 double Sleeve::specimen_pressure() const {
-  const fem::SurfaceMesh &inner = with_loads().surface();
+  const fem::HyperelasticSolid &solid = with_loads();
+  const fem::SurfaceMesh &inner = solid.surface();
   std::vector<char> counts(inner.faces.size(), 0);
   double area = 0, force = 0; // m^2, N
   for (std::size_t f = 0; f < inner.faces.size(); ++f) {
     const auto corner = [&](std::size_t k) {
       return inner.vertices[static_cast<std::size_t>(inner.faces[f][k])];
     };
-    const Vector3 middle = 0.25 * ((corner(0) + corner(1)) + (corner(2) + corner(3)));
-    if (!in_middle(middle.z, low_, high_)) continue;
+    double height = 0; // m, of the middle at the start, as the wall's state counts
+    for (const int vertex : inner.faces[f])
+      height += 0.25 * solid.mesh().nodes[static_cast<std::size_t>(solid.surface_node(vertex))].z;
+    if (!in_middle(height, low_, high_)) continue;
     counts[f] = 1;
     area += 0.5 * norm(cross(corner(2) - corner(0), corner(3) - corner(1)));
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/pi.h"
+#include "coupling/faults.h"
 #include "dem/measure/gauge.h"
 #include "tests/coupling/set_ups.h"
 #include "tests/same_state.h"
@@ -120,10 +121,115 @@ TEST(tube, friction_loads_it_along_the_axis) {
     PlatenTest test(packed_cylinder(), tubed);
     pressed(test, 1e-3);
     axial[rough] = test.tube()->wall_state().axial;
-    EXPECT_EQ(test.tube()->slip() > 0, rough == 1);
+    const double way = 0.5 * 1e-3 * test.shape().height; // m, of a platen
+    EXPECT_EQ(test.tube()->slip() > 0.01 * way, rough == 1);
+    EXPECT_LT(test.tube()->slip(), way);
   }
   EXPECT_LT(std::abs(axial[0]), 0.05 * axial[1]);
   EXPECT_GT(axial[1], 0);
+}
+
+// Layers of elements around a specimen that does not matter.
+struct Wall {
+  dem::Model model{coarse_cylinder(), lubricated().model};
+  double height = coarse_cylinder().shape.height;
+  Sleeve sleeve;
+
+  Wall(double yield_strength, int layers)
+      : sleeve(model.particles, coarse_cylinder().shape, 0, height, settings(yield_strength, layers)) {}
+  static SleeveSettings settings(double yield_strength, int layers) {
+    SleeveSettings tube = tube_of(1e-3, 210e9, yield_strength);
+    tube.metal->ultimate_strength = 1.25 * yield_strength;
+    tube.elements_along = layers;
+    tube.contact.particle_stiffness = 1e6, tube.contact.skin = 3e-4;
+    return tube;
+  }
+  template <class Field>
+  void move(const Field &field) {
+    std::vector<Vector3> all;
+    for (const Vector3 &x : sleeve.solid().mesh().nodes)
+      all.push_back(field(x));
+    sleeve.solid().set_displacement(all);
+  }
+};
+
+TEST(tube, its_wall_tells_of_the_middle_half_alone) {
+  Wall wall(1e6, 8);
+  wall.move([&](const Vector3 &x) { // strains the second layer from each end, in which yielding is found
+    const double z = x.z / wall.height - 0.5;
+    return Vector3{0, 0, z > 0.37 ? 1e-5 : z < -0.37 ? -1e-5 : 0};
+  });
+  const Sleeve::WallState state = wall.sleeve.wall_state();
+  EXPECT_LT(std::abs(state.axial) + std::abs(state.hoop), 1);
+  EXPECT_LT(std::abs(state.force), 1e-4);
+  EXPECT_EQ(state.yielded, 0.25);
+  EXPECT_GT(state.plastic_strain, 0);
+}
+
+// Widened alike everywhere and not along the axis: hoop = E w/((1 + nu)(1 - 2 nu)), along the axis 2 nu of
+// it.
+TEST(tube, a_wall_that_is_widened_bears_what_hooke_says) {
+  Wall wall(400e6, 5);
+  const double wide = 1e-6;
+  wall.move([&](const Vector3 &x) { return wide * Vector3{x.x, x.y, 0}; });
+  const Sleeve::WallState state = wall.sleeve.wall_state();
+  const double hoop = 210e9 * wide / (1.3 * 0.4);
+  EXPECT_NEAR(state.hoop / hoop, 1, 1e-4);
+  EXPECT_NEAR(state.axial / (-2 * 0.3 * hoop), 1, 1e-4);
+  const double section = (1 + wide) * (1 + wide) * wall.sleeve.solid().volume() / wall.height;
+  EXPECT_NEAR(state.force / (state.axial * section), 1, 1e-8);
+  const double outer = (coarse_cylinder().shape.radius) / std::cos(pi / 16) + 1e-3;
+  EXPECT_NEAR(state.bulge / (wide * outer), 1, 1e-6);
+  EXPECT_EQ(state.yielded, 0);
+  EXPECT_NEAR(wall.sleeve.solid().material().hardening->points[1].strain,
+              std::log(1.025) - 1.025 * 400e6 / 210e9, 1e-9);
+}
+
+TEST(tube, hardens_as_its_settings_say) {
+  const auto at = [](double strain, const auto &change) {
+    MetalSettings metal;
+    metal.yield_strength = 400e6;
+    change(metal);
+    return metal.hardening(210e9).at(strain).stress;
+  };
+  using M = MetalSettings;
+  EXPECT_EQ(at(0.5, [](M &) {}), 400e6);
+  EXPECT_NEAR(at(0.1, [](M &m) { m.saturation = 50e6, m.saturation_rate = 20; }),
+              400e6 + 50e6 * (1 - std::exp(-2.0)), 1);
+  EXPECT_NEAR(at(0.05, [](M &m) { m.points = {{0.1, 440e6}}; }), 420e6, 1);
+  EXPECT_NEAR(at(0.5, [](M &m) { m.ultimate_strength = 500e6; }), 560e6, 1); // true stress at e_u = .12
+  const auto many = [](std::size_t count) {
+    return [count](M &m) {
+      for (std::size_t k = 1; k <= count; ++k)
+        m.points.push_back({0.01 * static_cast<double>(k), 400e6});
+    };
+  };
+  EXPECT_EQ(at(0.5, many(31)), 400e6);
+  const auto refused = [&](const char *says, const auto &change) {
+    try {
+      at(0, change);
+      FAIL() << says;
+    } catch (const std::invalid_argument &wrong) {
+      EXPECT_STREQ(wrong.what(), says);
+    }
+  };
+  refused("tube: at most 31 points after the yield strength", many(32));
+  refused("tube: its ultimate strength is below its yield strength",
+          [](M &m) { m.ultimate_strength = 399e6; });
+  refused("tube: an ultimate strength or points, not both", [](M &m) {
+    m.ultimate_strength = 500e6, m.points = {{0.5, 600e6}};
+  });
+  refused("tube: its yield strength must be positive", [](M &m) { m.yield_strength = not_given; });
+}
+
+// Its mass is made such that it is stepped once in four steps, however thin its elements are.
+TEST(tube, one_that_nothing_touches_is_stepped_once_in_four_steps) {
+  PlatenTestSettings tubed = lubricated();
+  SleeveSettings &tube = tubed.loading.tube.emplace(tube_of(1e-3, 210e9, 50e6));
+  tube.mass_scaling = 0, tube.gap = 1e-4, tube.seat_layer = 0;
+  PlatenTest test(coarse_cylinder(), tubed);
+  EXPECT_GT(test.tube()->mass_scaling(), 1);
+  EXPECT_NEAR(test.tube()->known_limit() * tube.safety / test.time_step(), 4, 0.05);
 }
 
 TEST(tube, a_gap_has_to_close_before_it_confines) {
@@ -142,6 +248,20 @@ TEST(tube, a_gap_has_to_close_before_it_confines) {
   EXPECT_NEAR((widened[1] - widened[0]) / 1e-6, 1, 0.1);
 }
 
+TEST(tube, seats_spheres_across_its_gap) {
+  int seats[2];
+  for (const int gap : {0, 1}) {
+    PlatenTestSettings tubed = lubricated();
+    tubed.loading.tube = tube_of(1e-3, 210e9, 1e9);
+    tubed.loading.tube->seat_layer = 0.2;
+    tubed.loading.tube->gap = 0.5e-3 * gap; // more than the layer is deep
+    PlatenTest test(coarse_cylinder(), tubed);
+    seats[gap] = test.tube()->layer().seats();
+  }
+  EXPECT_GT(seats[0], 10);
+  EXPECT_NEAR(seats[1], seats[0], 0.1 * seats[0]);
+}
+
 TEST(tube, a_platen_that_comes_to_the_end_of_a_free_tube_stops_the_run) {
   PlatenTestSettings tubed = lubricated();
   tubed.loading.tube = tube_of(1e-3, 210e9, 1e9);
@@ -154,6 +274,25 @@ TEST(tube, a_platen_that_comes_to_the_end_of_a_free_tube_stops_the_run) {
     EXPECT_NE(std::string(stopped.what()).find("`sleeve.clearance`"), std::string::npos) << stopped.what();
   }
   EXPECT_NEAR(test.closure_strain() * test.shape().height / 4e-6, 1, 0.1); // the tube moves a little
+}
+
+TEST(tube, each_of_its_free_ends_is_looked_at) {
+  for (const double sense : {-1.0, 1.0}) {
+    PlatenTestSettings tubed = lubricated();
+    tubed.loading.tube = tube_of(1e-3, 210e9, 1e9);
+    tubed.loading.tube->clearance = 4e-6;
+    PlatenTest test(packed_cylinder(), tubed);
+    fem::HyperelasticSolid &solid = test.sleeve()->solid();
+    EXPECT_NEAR(solid.mesh().nodes[static_cast<std::size_t>(solid.nodes_of(fem::low_end_tag)[0])].z, 4e-6,
+                1e-9);
+    EXPECT_NEAR(test.shape().height -
+                    solid.mesh().nodes[static_cast<std::size_t>(solid.nodes_of(fem::high_end_tag)[0])].z,
+                4e-6, 1e-9);
+    // Moved towards one platen.
+    solid.set_displacement(std::vector<Vector3>(solid.mesh().nodes.size(), {0, 0, 3e-6 * sense}));
+    EXPECT_THROW(pressed(test, 1e-3), NumericsStopped);
+    EXPECT_NEAR(test.closure_strain() * test.shape().height / 2e-6, 1, 0.2) << sense;
+  }
 }
 
 TEST(tube, what_cannot_be_one_is_refused) {
@@ -181,6 +320,20 @@ TEST(tube, what_cannot_be_one_is_refused) {
     t.metal->ultimate_strength = 300e6, t.metal->points = {{0.1, 300e6}};
   });
   refused("sleeve.metal.saturation_rate", [](S &, T &t) { t.metal->saturation = 1e6; });
+  refused("sleeve.metal.saturation_rate", [](S &, T &t) { t.metal->saturation_rate = 10; });
+  refused("sleeve.thickness", [](S &, T &t) { t.thickness = 6.01e-3; });
+  refused("sleeve.clearance", [](S &, T &t) { t.clearance = 3.01e-3; });
+  refused("sleeve.gap", [](S &, T &t) { t.gap = 0.601e-3; });
+  refused("sleeve.elements_around", [](S &, T &t) { t.elements_around = 7; });
+  refused("sleeve.young_modulus",
+          [](S &, T &t) { t.metal->ultimate_strength = 360e6, t.young_modulus = 24.9e9; });
+  refused("loading.tension", [](S &s, T &) { s.loading.tension = s.platens.glued = true; });
+  PlatenTestSettings most = lubricated();
+  SleeveSettings &tube = most.loading.tube.emplace(tube_of(5.99e-3, 210e9, 250e6));
+  tube.clearance = 2.99e-3, tube.gap = 0.599e-3, tube.metal->ultimate_strength = 360e6;
+  tube.young_modulus = 25.1e9;
+  EXPECT_NO_THROW(tube.metal->hardening(tube.young_modulus));
+  EXPECT_EQ(faults(most, &coarse_cylinder().shape).size(), 0u);
 }
 
 } // namespace

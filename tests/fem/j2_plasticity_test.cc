@@ -60,11 +60,24 @@ TEST(logarithmic_strain, holds_far_beyond_what_metals_reach) {
   EXPECT_NEAR(full(b).determinant(), std::exp(2 * full(e).trace()), 1e-11);
 }
 
+// Of odd series up to the ninth power: 1/11 e^11 of artanh, 1382/155925 e^11 of tanh.
+TEST(logarithmic_strain, is_wrong_by_the_next_term_of_its_series) {
+  for (const double x : {0.1, 0.2}) {
+    const double next = std::pow(x, 11);
+    Symmetric<double> e{{x, -x, 0, 0, 0, 0}}, b{{std::exp(2 * x), std::exp(-2 * x), 1, 0, 0, 0}}, found;
+    half_logarithm(b, found);
+    EXPECT_NEAR(found[0], x, next / 11 + 1e-15);
+    exponential_of_twice(e, found);
+    EXPECT_NEAR(0.5 * std::log(found[0]), x, 1382.0 / 155925 * 1.1 * next + 1e-15);
+  }
+}
+
 TEST(j2_plasticity, the_flow_stress_is_lines_and_a_part_that_saturates) {
   const Hardening::Flow at = curved.at(0.013);
   const double line = 300e6 + (360e6 - 300e6) * (0.013 - 0.01) / (0.05 - 0.01);
   EXPECT_NEAR(at.stress, line + 90e6 * (1 - std::exp(-40 * 0.013)), 1e-6);
   EXPECT_NEAR(at.slope, 60e6 / 0.04 + 90e6 * 40 * std::exp(-40 * 0.013), 1e-3);
+  EXPECT_EQ(lines({{0, 1}, {1, 1}, {2, 3}}).at(1).slope, 2); // at a kink that of what follows
   EXPECT_NEAR(curved.at(0.2).stress, 360e6 + 90e6 * (1 - std::exp(-8.0)), 1e-6);
   double work = 0; // by Simpson's rule between the kinks
   for (const auto &[from, to] : {std::pair{0.0, 0.01}, {0.01, 0.05}, {0.05, 0.2}}) {
@@ -76,6 +89,7 @@ TEST(j2_plasticity, the_flow_stress_is_lines_and_a_part_that_saturates) {
                curved.at(from + (k + 1) * h).stress);
   }
   EXPECT_NEAR(curved.at(0.2).work / work, 1, 1e-10);
+  EXPECT_EQ(lines({{0, 250e6}}, 90e6, 0).at(0.2).work, 250e6 * 0.2);
 }
 
 TEST(j2_plasticity, returns_to_the_yield_surface) {
@@ -102,6 +116,12 @@ TEST(j2_plasticity, linear_hardening_returns_in_closed_form) {
   const double more = (3 * mu * trial - 250e6 - hard * before) / (3 * mu + hard);
   EXPECT_NEAR(law(trial, before).plastic_strain, before + more, 1e-15);
   EXPECT_NEAR(law(trial, before).share, 1 - more / trial, 1e-13);
+}
+
+// Flat, steep, flat: Newton's method alone goes to and fro between the flat parts.
+TEST(j2_plasticity, returns_to_a_steep_part_between_flat_ones) {
+  const J2Plasticity law{1.0 / 3, lines({{0, 1}, {1, 1}, {2, 11}})};
+  EXPECT_NEAR(law(7.5, 0).plastic_strain, 1.5, 1e-13); // 7.5 - 1.5 = 1 + 10 x .5
 }
 
 Eigen::Matrix<double, 6, 1> stress_of(const J2Plasticity &law, const Eigen::Matrix<double, 6, 1> &strain,
@@ -292,9 +312,25 @@ TEST(j2_plasticity, wrong_hardening_is_refused) {
   refused(lines({{0.001, 250e6}}));
   refused(lines({{0, 250e6}, {0, 260e6}}));
   refused(lines({{0, 250e6}, {0.1, 240e6}}));
+  const double infinite = std::numeric_limits<double>::infinity();
+  refused(lines({{0, 250e6}, {infinite, 260e6}}));
+  refused(lines({{0, 250e6}, {0.1, infinite}}));
+  refused(lines({{0, 250e6}}, infinite, 3));
+  refused(lines({{0, 250e6}}, 1, infinite));
   refused(lines({{0, 250e6}}, -1, 3));
   refused(lines({{0, 250e6}}, 1, std::nan("")));
-  refused(lines({{0, std::numeric_limits<double>::infinity()}}));
+  refused(lines({{0, infinite}}));
+  Hardening full;
+  for (; full.count < Hardening::most_points; ++full.count)
+    full.points[full.count] = {0.01 * static_cast<double>(full.count), 250e6};
+  EXPECT_NO_THROW(full.require_valid());
+  ++full.count;
+  try {
+    full.require_valid();
+    FAIL() << "33 points of 32";
+  } catch (const std::invalid_argument &wrong) {
+    EXPECT_STREQ(wrong.what(), "hardening: 1 to 32 points");
+  }
 }
 
 } // namespace
