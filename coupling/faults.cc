@@ -16,6 +16,9 @@ using By = dem::Weakening::By;
 // Of a tube: the ends that it leaves free together, of the height; its gap, of the radius.
 constexpr double most_clearance = 0.5, most_gap = 0.1;
 
+// Of metal: beyond it the series of its logarithmic strain lose digits.
+constexpr double largest_elastic_strain = 0.1;
+
 // Of structural steel, over its yield strength: the yield point lies well before the end of the plateau.
 constexpr double least_modulus_of_steel = 100;
 
@@ -278,6 +281,11 @@ private:
     if (!tube.metal) return;
     const MetalSettings &metal = *tube.metal;
     refuse_if(std::isnan(metal.yield_strength), "sleeve.metal.yield_strength", "has to be given for a tube.");
+    refuse_if(
+        metal.yield_strength > largest_elastic_strain * tube.young_modulus, "sleeve.metal.yield_strength",
+        "is more than a tenth of Young's modulus: the law is of metals, whose elastic strains are small. "
+        "Allowed: up to " +
+            text_of(largest_elastic_strain * tube.young_modulus) + " Pa.");
     refuse_if(metal.ultimate_strength < metal.yield_strength, "sleeve.metal.ultimate_strength",
               "is below the yield strength. Allowed: " + text_of(metal.yield_strength) + " Pa or more.");
     refuse_if(!std::isnan(metal.ultimate_strength) && !metal.points.empty(), "sleeve.metal.ultimate_strength",

@@ -57,7 +57,8 @@ Sleeve::WallState Sleeve::wall_state() const {
   }
   for (std::size_t n = 0; n < solid.mesh().nodes.size(); ++n) {
     const Vector3 &x = solid.mesh().nodes[n], now = solid.node_place(static_cast<int>(n));
-    state.bulge = std::max(state.bulge, std::hypot(now.x, now.y) - std::hypot(x.x, x.y));
+    const double outwards = std::hypot(now.x, now.y) - std::hypot(x.x, x.y);
+    if (!(outwards <= state.bulge)) state.bulge = outwards; // passes on NaN
   }
   if (volume > 0) {
     state.force = state.axial / (high - low);
@@ -65,7 +66,8 @@ Sleeve::WallState Sleeve::wall_state() const {
   }
   if (!strains.empty()) {
     state.yielded /= static_cast<double>(strains.size());
-    state.plastic_strain = *std::max_element(strains.begin(), strains.end());
+    for (const double strain : strains)
+      if (!(strain <= state.plastic_strain)) state.plastic_strain = strain;
   }
   return state;
 }

@@ -51,7 +51,7 @@ TEST(tube, a_rigid_one_gives_the_constrained_modulus) {
   PlatenTestSettings walled = lubricated(), tubed = walled;
   walled.loading.wall = true;
   walled.loading.wall_stiffness = 10, walled.loading.wall_layer = 1;
-  tubed.loading.tube = tube_of(4e-3, 1e13, 1e13);
+  tubed.loading.tube = tube_of(4e-3, 1e13, 1e12);
   tubed.loading.tube->stiffness = 10, tubed.loading.tube->seat_layer = 1;
   tubed.loading.tube->clearance = 1e-3; // so that it bears nothing along the axis
   PlatenTest wall(packed_cylinder(), walled), tube(packed_cylinder(), tubed);
@@ -325,6 +325,7 @@ TEST(tube, what_cannot_be_one_is_refused) {
   refused("sleeve.clearance", [](S &, T &t) { t.clearance = 3.01e-3; });
   refused("sleeve.gap", [](S &, T &t) { t.gap = 0.601e-3; });
   refused("sleeve.elements_around", [](S &, T &t) { t.elements_around = 7; });
+  refused("sleeve.metal.yield_strength", [](S &, T &t) { t.young_modulus = 2.49e9; });
   refused("sleeve.young_modulus",
           [](S &, T &t) { t.metal->ultimate_strength = 360e6, t.young_modulus = 24.9e9; });
   refused("loading.tension", [](S &s, T &) { s.loading.tension = s.platens.glued = true; });
