@@ -63,7 +63,7 @@ PLATEN_INTO_CALLER void add_up_forces(const ReferenceCell &cell, const TensorOfP
       double sum = 0;
       for (int q = 0; q < 8; ++q)
         sum += contribution[q];
-      force[3 * a + i] = sum;
+      force[3 * a + i] += sum;
     }
   }
 }
@@ -207,6 +207,43 @@ PLATEN_WIDTHS CellForce cell_force(const NeoHookean &law, const J2Plasticity &pl
                      uniform * cof[3 * i + k];
   add_up_forces(cell, p, result);
   return result;
+}
+
+PLATEN_WIDTHS double add_fibres(const Fibres &law, const FibreCell &own, const ReferenceCell &cell,
+                                const Corners &displacement, CellForce &result) {
+  if (own.share == 0) {
+    result.energy *= Fibres::rest_of_torn;
+    for (Vector3 &force : result.force)
+      force = Fibres::rest_of_torn * force;
+  }
+  TensorOfPoints f, p;
+  Points weight;
+  read(cell.weight.data(), weight);
+  deformation_gradient(cell, displacement, f);
+  for (int k = 0; k < 9; ++k)
+    p[k] = Points{};
+  double mean = 0;
+  for (std::size_t family = 0; family < 2; ++family) {
+    const Vector3 &d = own.direction[family];
+    Points along[3], stretch, squared = Points{};
+    for (int i = 0; i < 3; ++i) {
+      along[i] = f[3 * i] * d.x + f[3 * i + 1] * d.y + f[3 * i + 2] * d.z;
+      squared += along[i] * along[i];
+    }
+    for (int q = 0; q < 8; ++q)
+      stretch[q] = std::sqrt(squared[q]);
+    const double modulus = own.share * law.modulus[family];
+    const Points strain = stretch - 1, force = modulus * weight * strain;
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k)
+        p[3 * i + k] += force / stretch * along[i] * d[static_cast<std::size_t>(k)];
+    for (int q = 0; q < 8; ++q) {
+      result.energy += 0.5 * force[q] * strain[q];
+      if (family == 0) mean += weight[q] * strain[q];
+    }
+  }
+  add_up_forces(cell, p, result);
+  return mean / cell.volume;
 }
 
 } // namespace platen::fem

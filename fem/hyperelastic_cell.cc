@@ -178,6 +178,47 @@ CellStress cell_stress(const NeoHookean &law, const ReferenceCell &cell, const C
   return result;
 }
 
+// With v = F d and c the gradient of a corner's shape function along d, its force is w E (1 - 1/l) c v.
+void add_fibres(const Fibres &law, const FibreCell &own, const ReferenceCell &cell,
+                const Corners &displacement, CellStiffness &result) {
+  if (own.share == 0)
+    for (double &k : result)
+      k *= Fibres::rest_of_torn;
+  const TensorAtPoints f = deformation_gradient(cell, displacement);
+  for (std::size_t q = 0; q < 8; ++q)
+    for (std::size_t family = 0; family < 2; ++family) {
+      const Vector3 along = tensor_at(f, q) * own.direction[family];
+      const double stretch = norm(along), spring = own.share * law.modulus[family] * cell.weight[q];
+      std::array<double, 8> c;
+      for (std::size_t a = 0; a < 8; ++a)
+        c[a] = dot(cell.gradient_at(q, a), own.direction[family]);
+      for (std::size_t m = 0; m < 24; ++m)
+        for (std::size_t n = 0; n < 24; ++n) {
+          const double across = m % 3 == n % 3 ? 1 - 1 / stretch : 0.0;
+          result[24 * m + n] += spring * c[m / 3] * c[n / 3] *
+                                (across + along[m % 3] * along[n % 3] / (stretch * stretch * stretch));
+        }
+    }
+}
+
+void add_fibres(const Fibres &law, const FibreCell &own, const ReferenceCell &cell,
+                const Corners &displacement, CellStress &result) {
+  if (own.share == 0)
+    for (double &stress : result.cauchy)
+      stress *= Fibres::rest_of_torn;
+  const TensorAtPoints f = deformation_gradient(cell, displacement);
+  for (std::size_t q = 0; q < 8; ++q)
+    for (std::size_t family = 0; family < 2; ++family) {
+      const Vector3 along = tensor_at(f, q) * own.direction[family];
+      const double stretch = norm(along);
+      const double factor = own.share * law.modulus[family] * cell.weight[q] * (1 - 1 / stretch) /
+                            (cell.volume * result.volume_ratio);
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+          result.cauchy[3 * i + k] += factor * along[i] * along[k];
+    }
+}
+
 double plastic_work(const J2Plasticity &plastic, const ReferenceCell &cell, const PlasticPoints &points) {
   double work = 0;
   for (std::size_t q = 0; q < 8; ++q)

@@ -15,6 +15,7 @@
 #include <cstddef>
 
 #include "base/vector3.h"
+#include "fem/materials/fibres.h"
 #include "fem/materials/j2_plasticity.h"
 #include "fem/materials/neo_hookean.h"
 
@@ -66,6 +67,12 @@ CellForce cell_force(const NeoHookean &law, const ReferenceCell &cell, const Cor
 // Of metal, from the memory before the step; writes the one after it. `law`: elastic constants.
 CellForce cell_force(const NeoHookean &law, const J2Plasticity &plastic, const ReferenceCell &cell,
                      const Corners &displacement, const PlasticPoints &before, PlasticPoints &after);
+// Adds the forces and energy of fibres, after a torn cell's resin has been reduced to what is left of it.
+// Returns the mean strain of the first direction.
+double add_fibres(const Fibres &law, const FibreCell &own, const ReferenceCell &cell,
+                  const Corners &displacement, CellForce &result);
+void add_fibres(const Fibres &law, const FibreCell &own, const ReferenceCell &cell,
+                const Corners &displacement, CellStiffness &result);
 // `yielded`: of metal, the stiffness of its elastic strain, to the first order in that strain: an upper bound
 // while it yields.
 CellStiffness cell_stiffness(const NeoHookean &law, const ReferenceCell &cell, const Corners &displacement,
@@ -79,6 +86,8 @@ struct CellStress {
 CellStress cell_stress(const NeoHookean &law, const ReferenceCell &cell, const Corners &displacement);
 CellStress cell_stress(const NeoHookean &law, const ReferenceCell &cell, const Corners &displacement,
                        const PlasticPoints &points);
+void add_fibres(const Fibres &law, const FibreCell &own, const ReferenceCell &cell,
+                const Corners &displacement, CellStress &result);
 // J, lost since the start: the integral of the flow stress over the plastic strain.
 double plastic_work(const J2Plasticity &plastic, const ReferenceCell &cell, const PlasticPoints &points);
 

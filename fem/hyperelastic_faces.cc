@@ -134,6 +134,9 @@ void HyperelasticSolid::check(const std::vector<Vector3> &displacement) const {
 CellStiffness HyperelasticSolid::total_stiffness(std::size_t cell) const {
   CellStiffness k = cell_stiffness(material_.law, mesh_.cells[cell], mesh_.gather(cell, displacement_),
                                    plastic_ ? &after_[cell] : nullptr);
+  if (material_.fibres)
+    add_fibres(*material_.fibres, fibre_cells_[cell], mesh_.cells[cell], mesh_.gather(cell, displacement_),
+               k);
   for (std::size_t f = first_face_[cell]; f < first_face_[cell + 1]; ++f) {
     if (face_pressure_[f] == 0) continue;
     const BoundaryFace &face = mesh_.faces[f];

@@ -45,6 +45,12 @@ HyperelasticSolid::HyperelasticSolid(const Grid &grid, const SolidMaterial &mate
     before_.resize(mesh_.cells.size());
     after_ = before_;
   }
+  if (material.fibres) {
+    material.fibres->require_valid();
+    for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
+      fibre_cells_.push_back(material.fibres->layout(cell_middle(static_cast<int>(c), displacement_)));
+    fibre_strain_.assign(fibre_cells_.size(), 0.0);
+  }
   lay_out_stiffness();
 }
 
@@ -201,13 +207,30 @@ void HyperelasticSolid::drift(double dt, bool looked) {
   pressure_work_ += acting_ == face_pressure_
                         ? pressure_work_to(next_, face_pressure_)
                         : 0.5 * (pressure_work_to(next_, acting_) + pressure_work_to(next_, face_pressure_));
+  before_ = after_;
+  if (material_.fibres) tear(next_);
   std::swap(displacement_, next_);
-  yield_here();
   place_surface();
 }
 
 void HyperelasticSolid::yield_here() {
   before_ = after_;
+  if (material_.fibres) tear(displacement_);
+}
+
+// At the place of the last forces, which act for half of the way from there to `next`: what tears does their
+// work, and gives the energy that it would have stored by then.
+void HyperelasticSolid::tear(const std::vector<Vector3> &next) {
+  for (std::size_t c = 0; c < fibre_cells_.size(); ++c) {
+    if (fibre_cells_[c].share == 0 || !(fibre_strain_[c] >= material_.fibres->rupture_strain)) continue;
+    const Corners own = mesh_.gather(c, displacement_), then = mesh_.gather(c, next);
+    CellForce rest = cell_force(material_.law, mesh_.cells[c], own);
+    fibre_cells_[c].share = 0;
+    add_fibres(*material_.fibres, fibre_cells_[c], mesh_.cells[c], own, rest);
+    torn_energy_ += cell_force_[c].energy - rest.energy;
+    for (std::size_t a = 0; a < 8; ++a)
+      torn_energy_ += 0.5 * dot(cell_force_[c].force[a] - rest.force[a], then[a] - own[a]);
+  }
 }
 
 // Each cell's forces are stored separately; each node then adds the forces of its cells, in order.
@@ -219,6 +242,9 @@ void HyperelasticSolid::update_forces() {
         cell_force_[c] =
             plastic_ ? cell_force(material_.law, *plastic_, mesh_.cells[c], own, before_[c], after_[c])
                      : cell_force(material_.law, mesh_.cells[c], own);
+        if (material_.fibres)
+          fibre_strain_[c] =
+              add_fibres(*material_.fibres, fibre_cells_[c], mesh_.cells[c], own, cell_force_[c]);
       },
       cell_grain);
   for_each(internal_.size(), [&](std::size_t n) {
@@ -263,6 +289,13 @@ std::vector<double> HyperelasticSolid::plastic_strains() const {
   return strains;
 }
 
+std::vector<double> HyperelasticSolid::fibre_shares() const {
+  std::vector<double> shares;
+  for (const FibreCell &cell : fibre_cells_)
+    shares.push_back(cell.share);
+  return shares;
+}
+
 void HyperelasticSolid::set_displacement(const std::vector<Vector3> &displacement) {
   require(displacement.size() == displacement_.size(), "solid: one displacement per node is needed");
   check(displacement);
@@ -288,6 +321,7 @@ void HyperelasticSolid::describe(Archive &archive) {
   archive.same_rows("node_velocity", velocity_, "m/s");
   describe_loads(archive);
   if (plastic_) describe_yielding(archive);
+  if (material_.fibres) describe_fibres(archive);
   if (archive.reads()) follow_state();
 }
 
@@ -308,6 +342,14 @@ void HyperelasticSolid::describe_yielding(Archive &archive) {
       for (std::size_t n = 0; n < values.size(); ++n)
         column(before_[n / 8])[n % 8] = values[n];
   }
+}
+
+void HyperelasticSolid::describe_fibres(Archive &archive) {
+  archive("torn_energy", torn_energy_, "J");
+  std::vector<double> shares = fibre_shares();
+  archive.same_rows("fibre_share", shares, "1", at_least(0));
+  for (std::size_t c = 0; c < shares.size(); ++c)
+    fibre_cells_[c].share = shares[c];
 }
 
 // Forces under the pressures of the last force computation.

@@ -1,7 +1,7 @@
-// A solid at finite strain, of rubber or of metal that yields: the sleeve or the tube around a specimen, or a
-// block. Nodes carry mass and motion,
-// cells give the internal forces, faces of a tag carry a follower pressure (hyperelastic_cell.h), and one
-// part of the surface touches the particles, as a Body's does.
+// A solid at finite strain, of rubber, of metal that yields or of fibres in resin: the sleeve, the tube or
+// the wrap around a specimen, or a block. Nodes carry mass and motion, cells give the internal forces, faces
+// of a tag carry a follower pressure (hyperelastic_cell.h), and one part of the surface touches the
+// particles, as a Body's does.
 //
 // Explicit: velocity Verlet, in the order half_kick, drift, [contact loads], update_forces, half_kick. An
 // element that would be inverted is found at its new position before the law is evaluated, and the solid does
@@ -28,6 +28,7 @@ struct SolidMaterial {
   double density; // kg/m^3, positive
   NeoHookean law;
   std::optional<Hardening> hardening{}; // of metal; none: it does not yield
+  std::optional<Fibres> fibres{};       // in a resin of this law; none: rubber or metal
 };
 
 // Thrown before an inverted element is used; the text gives cell, position, volume ratio and load.
@@ -92,7 +93,8 @@ public:
   // read its surface often.
   void place_surface_ahead(double dt);
   // Internal and pressure forces at the current positions. Metal yields from where it was at the last
-  // drift(): calls without one give the same forces again.
+  // drift(), and fibres rupture there by the strain of the last forces: calls without one give the same
+  // forces again.
   void update_forces();
   // s; from the largest eigenvalue of the assembled stiffness, load stiffness included, to 1 % and on the
   // safe side (node_matrix.h). Costs as much as 30 steps: call it rarely. Contact springs are not included:
@@ -104,6 +106,11 @@ public:
   double plastic_work() const;    // J, lost to yielding since the start, as of the last update_forces
   // Equivalent, mean of each cell's points; empty where nothing yields.
   std::vector<double> plastic_strains() const;
+  // Of wraps, one per cell, as of the last update_forces: nominal strain of the hoop fibres, and the share of
+  // the laminate that is there (0: torn). Empty without fibres.
+  const std::vector<double> &fibre_strains() const { return fibre_strain_; }
+  std::vector<double> fibre_shares() const;
+  double torn_energy() const { return torn_energy_; } // J, stored in what tore, lost since the start
   // Since the start (J). Pressure work is the swept volume times the mean of the pressures of the last forces
   // and of the next ones, as in velocity Verlet.
   double pressure_work() const { return pressure_work_; }
@@ -119,7 +126,9 @@ public:
   // Sets all node positions and updates the forces; counts no work, and metal yields from where it was at the
   // last drift() or yield_here(). Throws InvertedElement, then nothing has changed.
   void set_displacement(const std::vector<Vector3> &displacement);
-  void yield_here(); // metal: the next forces start from the plastic strain that the last ones found
+  // Metal: the next forces start from the plastic strain that the last ones found. Fibres rupture where the
+  // last forces found their limit.
+  void yield_here();
 
   // Cauchy stress (Pa), tension positive. Node values are means over the adjacent cells by current volume.
   std::vector<CellStress> cell_stresses() const;
@@ -159,6 +168,8 @@ private:
     return vertex_of_[node] < 0 ? Vector3{} : load_[index(vertex_of_[node])];
   }
   void describe_yielding(Archive &archive);
+  void describe_fibres(Archive &archive);
+  void tear(const std::vector<Vector3> &next);
   CellStress stress_of(std::size_t cell) const;
   // The inverted cell with the lowest number for this displacement.
   Worst first_inverted(const std::vector<Vector3> &displacement) const;
@@ -193,6 +204,9 @@ private:
 
   std::optional<J2Plasticity> plastic_;
   std::vector<PlasticPoints> before_, after_; // of each cell, around the last update_forces; empty: rubber
+  std::vector<FibreCell> fibre_cells_;        // empty: no fibres
+  std::vector<double> fibre_strain_;
+  double torn_energy_ = 0;
   std::vector<CellForce> cell_force_;
   std::vector<Vector3> internal_, pressed_; // N, of each node
   double pressure_work_ = 0, prescribed_work_ = 0, damping_work_ = 0;

@@ -58,8 +58,10 @@ std::vector<CellStress> HyperelasticSolid::cell_stresses() const {
 
 CellStress HyperelasticSolid::stress_of(std::size_t cell) const {
   const Corners own = mesh_.gather(cell, displacement_);
-  return plastic_ ? cell_stress(material_.law, mesh_.cells[cell], own, after_[cell])
-                  : cell_stress(material_.law, mesh_.cells[cell], own);
+  if (plastic_) return cell_stress(material_.law, mesh_.cells[cell], own, after_[cell]);
+  CellStress stress = cell_stress(material_.law, mesh_.cells[cell], own);
+  if (material_.fibres) add_fibres(*material_.fibres, fibre_cells_[cell], mesh_.cells[cell], own, stress);
+  return stress;
 }
 
 std::vector<Tensor> HyperelasticSolid::node_stresses() const {
@@ -96,6 +98,10 @@ Picture HyperelasticSolid::picture(const std::vector<double> &slip) const {
   picture.of_points.push_back(std::move(pressure));
   picture.of_cells.push_back(std::move(ratio));
   if (plastic_) picture.of_cells.push_back({"plastic_strain", 1, plastic_strains()});
+  if (material_.fibres) {
+    picture.of_cells.push_back({"hoop_strain", 1, fibre_strain_});
+    picture.of_cells.push_back({"laminate_share", 1, fibre_shares()});
+  }
   return picture;
 }
 
