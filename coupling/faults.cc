@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pi.h"
 #include "base/shortest_text.h"
 #include "coupling/boundary.h"
 #include "coupling/platens_of_test.h"
@@ -278,8 +279,26 @@ private:
           tube.gap > most_gap * shape_->radius, "sleeve.gap",
           "is more than a tenth of the radius. Allowed: up to " + text_of(most_gap * shape_->radius) + " m.");
     }
-    if (!tube.metal) return;
-    const MetalSettings &metal = *tube.metal;
+    if (tube.metal) metal(tube, *tube.metal);
+    if (tube.wrap) wrap(tube, *tube.wrap);
+  }
+
+  void wrap(const SleeveSettings &tube, const WrapSettings &wrap) {
+    refuse_if(tube.metal.has_value(), "sleeve.metal", "does not go with a wrap. Allowed: one of both.");
+    refuse_if(std::isnan(wrap.rupture_strain), "sleeve.wrap.rupture_strain", "has to be given for a wrap.");
+    refuse_if(tube.young_modulus < wrap.resin_modulus, "sleeve.young_modulus",
+              "of a wrap is below that of its resin, " + text_of(wrap.resin_modulus) +
+                  " Pa. Allowed: that or more.");
+    refuse_if(
+        wrap.axial_modulus > 0 && wrap.axial_modulus < wrap.resin_modulus, "sleeve.wrap.axial_modulus",
+        "is below that of the resin, " + text_of(wrap.resin_modulus) + " Pa. Allowed: 0, or that or more.");
+    if (shape_ == nullptr || shape_->kind != dem::ShapeKind::cylinder) return;
+    const double hoop = 2 * pi * shape_->radius;
+    refuse_if(wrap.overlap > hoop, "sleeve.wrap.overlap",
+              "is more than once around, which is a layer. Allowed: up to " + text_of(hoop) + " m.");
+  }
+
+  void metal(const SleeveSettings &tube, const MetalSettings &metal) {
     refuse_if(std::isnan(metal.yield_strength), "sleeve.metal.yield_strength", "has to be given for a tube.");
     refuse_if(
         metal.yield_strength > largest_elastic_strain * tube.young_modulus, "sleeve.metal.yield_strength",

@@ -127,6 +127,7 @@ void PlatenTest::require_in_range() const {
   if (loading.cell) platen::require_in_range(*loading.cell);
   if (const SleeveSettings *sleeve = loading.sleeve()) platen::require_in_range(*sleeve);
   if (loading.tube && loading.tube->metal) platen::require_in_range(*loading.tube->metal);
+  if (loading.tube && loading.tube->wrap) platen::require_in_range(*loading.tube->wrap);
   require_no_fault(settings_, shape());
 }
 

@@ -121,6 +121,12 @@ double at_largest_load(const Test &t, double Sample::*value) {
   return largest == nullptr ? not_measured : largest->*value;
 }
 
+template <class Test>
+double at_first_tear(const Test &t, double Sample::*value) {
+  const Sample *last = t.results.before_tear();
+  return last == nullptr ? not_measured : last->*value;
+}
+
 // Of a pressure on the lateral surface, and of a wall that holds it.
 template <class List>
 void list_cell(List &list) {
@@ -161,7 +167,14 @@ void list_cell(List &list) {
   list.add("tube_pressure_at_largest_pa", "Pa", history,
            {"pressure on the specimen there", "{:.2f} MPa", 1e-6}, "total_load_n tube_pressure_pa",
            [](auto &t) { return at_largest_load(t, &Sample::tube_pressure); });
+  list.where([](auto &t) { return t.problem.tube() != nullptr && t.problem.tube()->yields(); });
   list.add("tube_plastic_work_j", "J", [](auto &t) { return t.problem.tube()->solid().plastic_work(); });
+  list.where([](auto &t) { return t.problem.tube() != nullptr && t.problem.tube()->wraps(); });
+  list.add("strain_at_first_tear", "1", history | torn, {"strain at the first tear (platen)", "{:.5f}"},
+           "wrap_torn_share", [](auto &t) { return at_first_tear(t, &Sample::strain_platen); });
+  list.add("hoop_strain_at_first_tear", "1", history | torn, {"mean strain of the hoops there", "{:.5f}"},
+           "wrap_torn_share wrap_hoop_strain", [](auto &t) { return at_first_tear(t, &Sample::wrap_hoop); });
+  list.add("wrap_torn_energy_j", "J", [](auto &t) { return t.problem.tube()->solid().torn_energy(); });
   list.where([](auto &t) { return t.problem.skin() != nullptr; });
   list.add("skin_spheres", "1", [](auto &t) { return t.problem.skin()->skin().size(); });
   list.add("skin_coverage", "1", [](auto &t) {

@@ -58,6 +58,12 @@ bool in_sleeve(const PlatenTest &p) {
 bool in_tube(const PlatenTest &p) {
   return p.tube() != nullptr;
 }
+bool in_metal(const PlatenTest &p) {
+  return in_tube(p) && p.tube()->yields();
+}
+bool in_wrap(const PlatenTest &p) {
+  return in_tube(p) && p.tube()->wraps();
+}
 bool of_disc(const PlatenTest &p) {
   return p.shape().kind == dem::ShapeKind::disc;
 }
@@ -227,10 +233,15 @@ const std::vector<HistoryColumn> &history_columns() {
       {"tube_pressure_pa", "Pa", &S::tube_pressure,
        [](const Seen &s) { return s.problem.tube()->specimen_pressure(); }, number, in_tube},
       {"tube_plastic_strain", "1", nullptr, [](const Seen &s) { return s.wall.plastic_strain; }, number,
-       in_tube},
-      {"tube_yielded_share", "1", nullptr, [](const Seen &s) { return s.wall.yielded; }, number, in_tube},
+       in_metal},
+      {"tube_yielded_share", "1", nullptr, [](const Seen &s) { return s.wall.yielded; }, number, in_metal},
       {"tube_bulge_m", "m", nullptr, [](const Seen &s) { return s.wall.bulge; }, number, in_tube},
       {"tube_slip_m", "m", nullptr, [](const Seen &s) { return s.problem.tube()->slip(); }, number, in_tube},
+      {"wrap_hoop_strain", "1", &S::wrap_hoop, [](const Seen &s) { return s.wall.hoop_strain; }, number,
+       in_wrap},
+      {"wrap_largest_hoop_strain", "1", &S::wrap_most_hoop, [](const Seen &s) { return s.wall.most_hoop; },
+       number, in_wrap},
+      {"wrap_torn_share", "1", &S::wrap_torn, [](const Seen &s) { return s.wall.torn; }, number, in_wrap},
       {"cell_pressure_pa", "Pa", &S::cell_pressure,
        [](const Seen &s) { return s.problem.confining_pressure(); }, state, in_cell},
       {"cycling", "1", &S::cycling, [](const Seen &s) { return s.problem.cycling() ? 1.0 : 0.0; }, state},

@@ -34,6 +34,7 @@ struct Sample {
   // Of a tube: N, of the platens on its ends, and on it and the specimen together; Pa, of its middle half,
   // compression of the axis and tension of the hoop positive, and of the specimen on its inner face there.
   double tube_load = 0, total_load = 0, tube_axial = 0, tube_hoop = 0, tube_pressure = 0;
+  double wrap_hoop = 0, wrap_most_hoop = 0, wrap_torn = 0; // of a wrap: strains of its hoops, torn fraction
   double intact_bonds = 0, broken_tension = 0, broken_shear = 0;
   double kinetic = 0, bond = 0, contact = 0, body = 0, damping = 0, friction = 0, fracture = 0, boundary = 0,
          plastic = 0;        // J

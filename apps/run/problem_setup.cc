@@ -63,7 +63,11 @@ std::vector<Effect> effects(const Scene &s) {
       {s.platens.glued, "glued ends", "Platens/Attachment"},
       {s.loading.confinement == ConfinementKind::particles, "confinement on particles",
        "Loading/Confinement"},
-      {s.loading.sleeved(), s.loading.tubed() ? "tube" : "sleeve", "Loading/Confinement"},
+      {s.loading.sleeved(),
+       s.loading.wrapped() ? "wrap"
+       : s.loading.tubed() ? "tube"
+                           : "sleeve",
+       "Loading/Confinement"},
       {s.loading.walled(), "lateral wall", "Loading/Test"},
       {!s.loading.unload_at.empty(), "unloading", "Loading/Unload at"},
       {s.specimen.seat, "seats", "Specimen/Seat"},
@@ -117,7 +121,7 @@ coupling::PlatenTestSettings problem_settings(const Scene &scene) {
   const auto read = [&](coupling::PlatenSide &side, coupling::Side which) {
     side.grid = platen_grid(scene, scene.platens.face(which));
   };
-  if (to.loading.tube && !scene.loading.hardening_file.empty())
+  if (to.loading.tube && to.loading.tube->metal && !scene.loading.hardening_file.empty())
     to.loading.tube->metal->points =
         read_hardening(scene.loading.hardening_file, to.loading.tube->metal->yield_strength);
   using coupling::Side;

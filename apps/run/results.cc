@@ -200,6 +200,12 @@ const Sample *Results::at_largest(double Sample::*value) const {
   return largest;
 }
 
+const Sample *Results::before_tear() const {
+  for (std::size_t k = 1; k < samples_.size(); ++k)
+    if (samples_[k].wrap_torn > 0) return &samples_[k - 1];
+  return nullptr;
+}
+
 double Results::stress_at_end() const {
   return samples_.empty() ? not_measured : sign_ * samples_.back().stress(axis_);
 }

@@ -47,7 +47,7 @@ Words against_bare(Test t) {
   if (t.problem.wall() != nullptr)
     return {"a wall holds the sides: the ratio of stress and strain is constrained_modulus_pa"};
   if (t.problem.tube() != nullptr)
-    return {"a tube holds the sides: the ratio of stress and strain is no Young's modulus"};
+    return {"a tube or a wrap holds the sides: the ratio of stress and strain is no Young's modulus"};
   return when(t.presses_sides(),
               "platens hold the sides: the ratio of stress and strain is no Young's modulus");
 }
@@ -219,6 +219,7 @@ const std::vector<Reason> reasons{
     {consolidation, [](Test t) { return against_controls(t, t.results.consolidation_end()); }},
     {peak, against_path},
     {gauge, against_gauge},
+    {torn, [](Test t) { return when(t.results.before_tear() == nullptr, "no part of the wrap has torn"); }},
     {whole_bar,
      [](Test t) { return when(t.problem.notched(), "the bar has a notch: beam theory knows of none"); }},
     {ligament,

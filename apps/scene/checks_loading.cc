@@ -117,8 +117,14 @@ void SceneCheck::tube() const {
   if (loading.hydrostatic()) refuse("Sleeve/Kind", "presses nothing in a hydrostatic test. Allowed: rubber.");
   if (loading.cell->pressure > 0)
     refuse("Loading/Confining pressure",
-           "does not go with Sleeve/Kind = tube, which stands in no cell. Allowed: 0.");
+           "does not go with Sleeve/Kind = tube or wrap, which stand in no cell. Allowed: 0.");
   const coupling::SleeveSettings &wall = *loading.cell->sleeve;
+  if (loading.wrapped()) {
+    for (const char *path : {"Sleeve/Modulus", "Sleeve/Thickness"})
+      if (!parameters_.at(path).changed())
+        refuse(path, "is that of rubber: a wrap needs its own. Allowed: that of the wrap.");
+    return;
+  }
   if (!parameters_.at("Sleeve/Modulus").changed() && loading.steel == Steel::custom)
     refuse("Sleeve/Modulus",
            "is that of rubber: a tube of custom steel needs its own. Allowed: that of the metal, or a "

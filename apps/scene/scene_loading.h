@@ -106,7 +106,7 @@ inline const Words<LoadingTest> loading_tests{{"compression", LoadingTest::compr
                                               {"uniaxial strain", LoadingTest::uniaxial_strain},
                                               {"three point bending", LoadingTest::three_point_bending}};
 enum class ConfinementKind { none, particles, sleeve };
-enum class SleeveKind { rubber, tube };
+enum class SleeveKind { rubber, tube, wrap };
 enum class Steel { custom, s235, s275, s355 };
 
 struct Loading : coupling::LoadingSettings {
@@ -121,11 +121,15 @@ struct Loading : coupling::LoadingSettings {
 
   Loading() {
     target_strain = 0.01;
-    cell.emplace().sleeve.emplace().metal.emplace();
+    coupling::SleeveSettings &sleeve = cell.emplace().sleeve.emplace();
+    sleeve.metal.emplace(), sleeve.wrap.emplace();
   }
   bool staged() const { return !stages.empty(); }
   bool sleeved() const { return confinement == ConfinementKind::sleeve; } // of finite elements, any kind
-  bool tubed() const { return sleeved() && sleeve_kind == SleeveKind::tube; }
+  bool tubed() const {
+    return sleeved() && sleeve_kind != SleeveKind::rubber;
+  } // a wall that the specimen presses
+  bool wrapped() const { return sleeved() && sleeve_kind == SleeveKind::wrap; }
   bool confined() const { return confinement != ConfinementKind::none && !tubed(); } // by a pressure
   bool walled() const { return test == LoadingTest::uniaxial_strain; }
   bool bending() const { return test == LoadingTest::three_point_bending; }

@@ -211,19 +211,21 @@ void declare_sleeve(Parameters &parameters, Loading &loading) {
               [](const Situation &s) { return s.scene.loading.sleeved() || s.used_by_program("Sleeve"); },
               "Loading/Confinement is not sleeve");
   coupling::SleeveSettings &sleeve = *loading.cell->sleeve;
-  const std::vector<std::string> tube{"tube"};
+  const std::vector<std::string> tube{"tube"}, passive{"tube", "wrap"};
   section
       .entry<SleeveKind>(
-          "Kind", loading.sleeve_kind, {{"rubber", SleeveKind::rubber}, {"tube", SleeveKind::tube}},
-          "rubber: in a cell, whose pressure acts through it; tube: of metal that yields, which "
-          "confines the specimen because the specimen presses it.")
+          "Kind", loading.sleeve_kind,
+          {{"rubber", SleeveKind::rubber}, {"tube", SleeveKind::tube}, {"wrap", SleeveKind::wrap}},
+          "rubber: in a cell, whose pressure acts through it; tube: of metal that yields, and wrap: of "
+          "fibres "
+          "in resin that tear, confine the specimen because it presses them.")
       .member("loading.tube");
   Members of(section, sleeve);
   Members metal(section.only_if("Sleeve/Kind", tube), *sleeve.metal);
   section.only_if("Sleeve/Kind", tube)
       .entry<Steel>("Steel", loading.steel, steel_words(), steel_documentation());
   metal("yield_strength").needed_if([](const Situation &s) {
-    return s.loads() && s.scene.loading.tubed() ? "a tube yields." : "";
+    return s.loads() && s.scene.loading.tubed() && !s.scene.loading.wrapped() ? "a tube yields." : "";
   });
   for (const char *member : {"ultimate_strength", "saturation", "saturation_rate"})
     metal(member);
@@ -232,8 +234,13 @@ void declare_sleeve(Parameters &parameters, Loading &loading) {
             "A table of plastic_strain and flow_stress_pa (or flow_stress_mpa), true stress and strain, "
             "after the "
             "yield strength; instead of an ultimate strength.");
+  Members wrap(section.only_if("Sleeve/Kind", {"wrap"}), *sleeve.wrap);
+  wrap("rupture_strain").needed_if([](const Situation &s) {
+    return s.loads() && s.scene.loading.wrapped() ? "a wrap tears." : "";
+  });
+  wrap.rest();
   for (const char *member : {"gap", "clearance"})
-    of(member).only_if("Sleeve/Kind", tube);
+    of(member).only_if("Sleeve/Kind", passive);
   of("thickness");
   of("young_modulus", "Modulus");
   for (const char *member : {"poisson_ratio", "density"})
@@ -253,7 +260,8 @@ void declare_loading(Parameters &parameters, Loading &loading) {
   const auto unstaged = [](const Scene &s) { return !s.loading.staged(); };
   const std::string staged = "Loading/Stage 1 is there";
   const Section axial = section.unless("Loading/Test", {"hydrostatic"}),
-                cell = section.unless("Loading/Confinement", {"none"}).unless("Sleeve/Kind", {"tube"});
+                cell =
+                    section.unless("Loading/Confinement", {"none"}).unless("Sleeve/Kind", {"tube", "wrap"});
   Members of(section, loading), along(axial, loading);
   Members in(cell, *loading.cell), alone(cell.only_if(unstaged, staged), *loading.cell);
   section
@@ -293,7 +301,7 @@ void declare_loading(Parameters &parameters, Loading &loading) {
            {"particles", ConfinementKind::particles},
            {"sleeve", ConfinementKind::sleeve}},
           "How the lateral surface is pressed; particles: by forces on those of the surface; sleeve: by oil "
-          "through rubber of finite elements, or by a tube (Sleeve/Kind).")
+          "through rubber of finite elements, or by a tube or a wrap (Sleeve/Kind).")
       .member("loading.cell");
   alone("pressure", "Confining pressure");
   alone("ramp", "Confining ramp");

@@ -78,10 +78,10 @@ coupling::PlatenTestSettings settings_without_files(const Scene &scene) {
   to.loading.tension = scene.loading.test == LoadingTest::tension;
   to.loading.wall = scene.loading.walled();
   to.loading.cell->alone = scene.loading.hydrostatic();
-  if (scene.loading.tubed())
-    to.loading.tube = to.loading.cell->sleeve;
-  else
-    to.loading.cell->sleeve->metal.reset();
+  coupling::SleeveSettings &sleeve = *to.loading.cell->sleeve;
+  if (scene.loading.sleeve_kind != SleeveKind::tube) sleeve.metal.reset();
+  if (scene.loading.sleeve_kind != SleeveKind::wrap) sleeve.wrap.reset();
+  if (scene.loading.tubed()) to.loading.tube = sleeve;
   if (!scene.loading.sleeved()) to.loading.cell->sleeve.reset();
   if (!scene.loading.confined()) to.loading.cell.reset();
   to.time_step = scene.time_step;

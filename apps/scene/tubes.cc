@@ -27,6 +27,9 @@ const std::vector<SteelWord> &steels() {
 // EN 1993-1-1, 3.2.6; density EN 1991-1-1.
 const std::vector<std::pair<std::string, std::string>> of_steel = {
     {"Modulus", "210 GPa"}, {"Poisson ratio", "0.3"}, {"Density", "7850 kg/m3"}};
+// Density and Poisson's ratio of laminates of carbon: docs/theory.md. The rest as of tubes.
+const std::vector<std::pair<std::string, std::string>> of_wraps = {
+    {"Poisson ratio", "0.35"}, {"Density", "1600 kg/m3"}, {"Rims", "sliding"}, {"Damping", "100"}};
 // Two elements bend with the wall. Its inertia is scaled, and damping acts on the scaled mass: less than
 // for rubber.
 const std::vector<std::pair<std::string, std::string>> of_tubes = {
@@ -56,8 +59,9 @@ void supply_tube(Parameters &parameters, const Loading &loading) {
   const auto supply = [&](const std::string &key, const std::string &value, const char *by) {
     parameters.supply("Sleeve/" + key, value, parameters.at(std::string("Sleeve/") + by).origin);
   };
-  for (const auto &[key, value] : of_tubes)
+  for (const auto &[key, value] : loading.wrapped() ? of_wraps : of_tubes)
     supply(key, value, "Kind");
+  if (loading.wrapped()) return;
   for (const SteelWord &one : steels()) {
     if (one.kind != loading.steel) continue;
     for (const auto &[key, value] : of_steel)

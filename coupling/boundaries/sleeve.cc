@@ -88,9 +88,14 @@ Sleeve::Sleeve(const dem::Particles &particles, const dem::Shape &shape, const E
 }
 
 void Sleeve::build(const dem::Particles &particles) {
+  const double stiff = wraps() ? settings_.wrap->resin_modulus : settings_.young_modulus;
   fem::SolidMaterial wall{settings_.density * mass_scaling(),
-                          fem::NeoHookean::from_young(settings_.young_modulus, settings_.poisson_ratio)};
+                          fem::NeoHookean::from_young(stiff, settings_.poisson_ratio)};
   if (settings_.metal) wall.hardening = settings_.metal->hardening(settings_.young_modulus);
+  const double radius = shape_.radius + settings_.gap;
+  if (wraps())
+    wall.fibres =
+        settings_.wrap->fibres(settings_.young_modulus, radius, 2 * pi * radius / settings_.elements_around);
   fem::load_solids();
   solid_ = std::make_unique<fem::HyperelasticSolid>(tube_around(shape_, low_, high_, settings_), wall,
                                                     std::vector<int>{fem::inner_tag});
@@ -130,9 +135,9 @@ double Sleeve::cheap_mass(double time_step) const {
   const double springs =
       bound_over_mean * contact_->seats() * p.particle_stiffness * std::max(1.0, p.tangential_ratio);
   const double interval =
-      (yields() ? steps_of_cheap_tube : steps_of_cheap_interval) * time_step / settings_.safety;
+      (is_rubber() ? steps_of_cheap_interval : steps_of_cheap_tube) * time_step / settings_.safety;
   // Rubber's own limit is far above that of its contacts.
-  const double own = yields() ? 1 / (own_limit_ * own_limit_) : 0.0;
+  const double own = is_rubber() ? 0.0 : 1 / (own_limit_ * own_limit_);
   return std::max(1.0, (own + springs / mass * 0.25) * interval * interval);
 }
 
@@ -184,6 +189,7 @@ void Sleeve::add_energy(dem::EnergyLedger &energy) const {
   ContactBoundary::add_energy(energy);
   energy.damping += lost();
   energy.plastic += solid_->plastic_work();
+  energy.fracture += solid_->torn_energy();
   energy.bodies += stored();
   energy.boundary += work();
 }

@@ -1,7 +1,7 @@
-// A sleeve around a specimen: a tube of finite elements, of rubber in a cell or of steel that confines the
-// specimen because it is pressed by it. Its inner face touches the particles, its outer face carries the
-// cell's pressure, and its rims move with the platens; the upper rim turns with a top platen on a seat, but
-// puts no moment on it: the machine turns the rim. A tube that ends before the platens is free there.
+// A sleeve around a specimen: a tube of finite elements, of rubber in a cell, or of steel or fibres that
+// confine the specimen because it presses them. Its inner face touches the particles, its outer face carries
+// the cell's pressure, and its rims move with the platens; the upper rim turns with a top platen on a seat,
+// but puts no moment on it: the machine turns the rim. A tube that ends before the platens is free there.
 //
 // The stable step of the sleeve is made several steps of the particles long, by its mass where need be. So
 // the sleeve is kicked once in an interval of several steps, by velocity Verlet with the interval as step.
@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "coupling/boundaries/platen.h"
+#include "coupling/wrap_settings.h"
 #include "dem/packing/specimen.h"
 #include "fem/hyperelastic_solid.h"
 
@@ -46,7 +47,8 @@ struct SleeveSettings {
   // Around 0: faces five mean radii wide, to bridge the gaps between spheres; along 0: as long as wide.
   int elements_around = 0, elements_along = 0, elements_through = 1;
   bool bonded_rims = true;            // fixed to the platens' rims; else they slide along them
-  std::optional<MetalSettings> metal; // none: rubber
+  std::optional<MetalSettings> metal; // a tube that yields
+  std::optional<WrapSettings> wrap;   // of the hoop modulus `young_modulus`; neither: rubber
   double gap = 0;                     // m, between its inner face and the specimen
   double clearance =
       0; // m, by which each end stands off its platen: it is free then; 0: platens hold the ends
@@ -152,7 +154,7 @@ public:
   // s, stability limit of the next interval; of a tube whose mass is to be fitted to the step there is none
   // yet.
   double known_limit() const override {
-    return yields() && settings_.mass_scaling == 0 ? std::numeric_limits<double>::infinity() : limit_;
+    return !is_rubber() && settings_.mass_scaling == 0 ? std::numeric_limits<double>::infinity() : limit_;
   }
   void fit(const dem::Particles &particles, double time_step) override;
   void add_energy(dem::EnergyLedger &energy) const override;
@@ -171,11 +173,14 @@ public:
   struct WallState {
     double axial = 0, hoop = 0, force = 0; // Pa, Pa, N: of its section, compression positive
     double plastic_strain = 0, yielded = 0;
-    double bulge = 0; // m, largest displacement of a node outwards
+    double bulge = 0;                      // m, largest displacement of a node outwards
+    double hoop_strain = 0, most_hoop = 0; // 1, of a wrap: mean of that half, and of any element not torn
+    double torn = 0;                       // 1, fraction of the elements
   };
   WallState wall_state() const;
   double specimen_pressure() const; // Pa, of the specimen on the middle half of its inner face, mean
   double slip() const;              // m, mean path along it of the specimen's spheres that touch it
+  long torn_elements() const;
   static constexpr const char *reason_of_limit =
       "the finite elements of the sleeve with the springs of its contacts";
 
@@ -193,6 +198,8 @@ public:
   int steps_of_next_interval(double dt) const;                                    // of dt (s) each
   double inner_volume() const { return solid_->enclosed_volume(fem::inner_tag); } // m^3, of the specimen
   bool yields() const { return settings_.metal.has_value(); }
+  bool wraps() const { return settings_.wrap.has_value(); }
+  bool is_rubber() const { return !yields() && !wraps(); }
   bool on_platens() const { return settings_.clearance == 0; }
   // Of the enclosed volume, positive in compression.
   double volumetric_strain() const { return 1 - inner_volume() / volume_at_start_; }

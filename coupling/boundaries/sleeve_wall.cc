@@ -1,4 +1,4 @@
-// What the wall of a sleeve bears, for measures of a tube around concrete.
+// What the wall of a sleeve bears, for measures of a tube or a wrap around concrete.
 #include <algorithm>
 #include <cmath>
 
@@ -36,7 +36,8 @@ fem::Hardening MetalSettings::hardening(double young_modulus) const {
 Sleeve::WallState Sleeve::wall_state() const {
   const fem::HyperelasticSolid &solid = with_loads();
   const std::vector<fem::CellStress> stresses = solid.cell_stresses();
-  const std::vector<double> strains = solid.plastic_strains();
+  const std::vector<double> strains = solid.plastic_strains(), hoops = solid.fibre_strains(),
+                            shares = solid.fibre_shares();
   WallState state;
   double volume = 0, low = high_, high = low_; // m^3, m: of the cells in the middle half
   for (std::size_t c = 0; c < stresses.size(); ++c) {
@@ -51,6 +52,7 @@ Sleeve::WallState Sleeve::wall_state() const {
     const fem::Tensor &s = stresses[c].cauchy;
     state.hoop += own * (tx * tx * s[0] + 2 * tx * ty * s[1] + ty * ty * s[4]);
     state.axial -= own * s[8];
+    if (wraps()) state.hoop_strain += own * hoops[c];
     volume += own;
     for (const int node : solid.mesh().cell_nodes[c])
       low = std::min(low, solid.node_place(node).z), high = std::max(high, solid.node_place(node).z);
@@ -62,14 +64,22 @@ Sleeve::WallState Sleeve::wall_state() const {
   }
   if (volume > 0) {
     state.force = state.axial / (high - low);
-    state.axial /= volume, state.hoop /= volume;
+    state.axial /= volume, state.hoop /= volume, state.hoop_strain /= volume;
   }
   if (!strains.empty()) {
     state.yielded /= static_cast<double>(strains.size());
     for (const double strain : strains)
       if (!(strain <= state.plastic_strain)) state.plastic_strain = strain;
   }
+  for (std::size_t c = 0; c < shares.size(); ++c)
+    if (shares[c] > 0 && !(hoops[c] <= state.most_hoop)) state.most_hoop = hoops[c];
+  if (wraps()) state.torn = static_cast<double>(torn_elements()) / static_cast<double>(shares.size());
   return state;
+}
+
+long Sleeve::torn_elements() const {
+  const std::vector<double> shares = solid_->fibre_shares();
+  return std::count(shares.begin(), shares.end(), 0.0);
 }
 
 // Of whole faces, so that force and area are of the same part.

@@ -52,6 +52,10 @@ TEST_F(Determinism, the_baseline_gives_the_same_bytes_on_an_older_processor) {
        {"Loading/Confinement = sleeve", "Sleeve/Kind = tube", "Sleeve/Steel = S235",
         "Sleeve/Yield strength = 40 MPa", "Sleeve/Saturation = 20 MPa", "Sleeve/Saturation rate = 50",
         "Loading/Target strain = 0.004", "Sleeve/Thickness = 0.5 mm"}},
+      {"wrap",
+       {"Loading/Confinement = sleeve", "Sleeve/Kind = wrap", "Sleeve/Modulus = 70 GPa",
+        "Sleeve/Rupture strain = 0.0005", "Loading/Target strain = 0.004", "Sleeve/Thickness = 0.1 mm",
+        "Sleeve/Overlap = 5 mm"}},
       {"elastic",
        {"Platens/Kind = deformable", "Platens/Motion = explicit", "Loading/Target strain = 0.004"}}};
   for (const auto &[name, entries] : runs) {

@@ -89,8 +89,33 @@ TEST_F(Figures, of_a_tube_are_those_of_the_row_of_the_largest_load) {
   const double area = s["section"]["area_m2"];
   EXPECT_NEAR(load[row] - column("tube", "tube_load_n")[row], 0.5 * (top[row] + bottom[row]) * area,
               1e-9 * load[row]);
-  expect_reason(s, moduli, "a tube holds the sides");
+  expect_reason(s, moduli, "a tube or a wrap holds the sides");
   EXPECT_TRUE(has(s["effects"], "tube"));
+}
+
+TEST_F(Figures, of_a_wrap_are_those_of_the_row_before_it_tears) {
+  const Words wrap{"Loading/Confinement = sleeve", "Sleeve/Kind = wrap", "Sleeve/Modulus = 70 GPa",
+                   "Sleeve/Thickness = 0.1 mm",    "Expect/pattern =",   "Loading/Target strain = 0.006"};
+  const auto with = [&](const char *rupture) {
+    Words all = wrap;
+    all.push_back(rupture);
+    return all;
+  };
+  const nlohmann::json s = crush("wrap", with("Sleeve/Rupture strain = 0.0005"));
+  const std::vector<double> torn = column("wrap", "wrap_torn_share");
+  const auto first = std::find_if(torn.begin(), torn.end(), [](double share) { return share > 0; });
+  ASSERT_NE(first, torn.end());
+  const auto row = static_cast<std::size_t>(first - torn.begin()) - 1;
+  EXPECT_NEAR(s["strain_at_first_tear"].get<double>(), column("wrap", "axial_strain_platen")[row], 1e-12);
+  EXPECT_NEAR(s["hoop_strain_at_first_tear"].get<double>(), column("wrap", "wrap_hoop_strain")[row], 1e-12);
+  EXPECT_LT(column("wrap", "wrap_largest_hoop_strain")[row], 0.0005);
+  EXPECT_GT(column("wrap", "wrap_largest_hoop_strain")[row], 0.9 * 0.0005);
+  EXPECT_GT(s["wrap_torn_energy_j"], 0);
+  EXPECT_TRUE(has(s["effects"], "wrap"));
+  EXPECT_FALSE(s.contains("tube_plastic_work_j"));
+  const nlohmann::json whole = crush("whole", with("Sleeve/Rupture strain = 0.05"));
+  expect_reason(whole, {"strain_at_first_tear", "hoop_strain_at_first_tear"}, "no part of the wrap has torn");
+  EXPECT_EQ(whole["wrap_torn_energy_j"], 0);
 }
 
 TEST_F(Figures, an_expectation_of_one_that_is_none_says_why) {

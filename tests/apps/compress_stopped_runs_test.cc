@@ -76,6 +76,17 @@ const std::vector<Stopped> stops{
      {"body_energy_j", "plastic_work_j", "tube_hoop_stress_pa"},
      {},
      {{"tube_plastic_work_j", 1e-6, 1e9}, {"largest_load_n", 1, 1e9}}},
+    // Before it tears, and after.
+    {"wrap",
+     "crushed.prm",
+     {"Loading/Confinement = sleeve", "Sleeve/Kind = wrap", "Sleeve/Modulus = 70 GPa",
+      "Sleeve/Rupture strain = 0.0005", "Loading/Target strain = 0.008", "Sleeve/Thickness = 0.1 mm"},
+     {5, 60},
+     300,
+     {"sleeve.pvd"},
+     {"body_energy_j", "wrap_hoop_strain"},
+     {},
+     {{"wrap_torn_energy_j", 1e-9, 1e9}, {"largest_load_n", 1, 1e9}}},
     // In the hydrostatic stage, and after the peak; the platen turns the rim of the sleeve.
     {"seat_and_sleeve",
      "crushed.prm",

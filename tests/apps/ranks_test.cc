@@ -67,6 +67,17 @@ TEST_F(Ranks, a_tube_that_yields_changes_no_byte) {
   EXPECT_EQ(unlike(one, "three"), "");
 }
 
+TEST_F(Ranks, a_wrap_that_tears_changes_no_byte) {
+  const std::vector<std::string> around{
+      "-s", "Loading/Confinement = sleeve", "-s", "Sleeve/Kind = wrap",
+      "-s", "Sleeve/Modulus = 70 GPa",      "-s", "Sleeve/Rupture strain = 0.0005",
+      "-s", "Sleeve/Thickness = 0.1 mm",    "-s", "Loading/Target strain = 0.006"};
+  const fs::path one = whole(around);
+  EXPECT_GT(summary_in(one)["wrap_torn_energy_j"], 0);
+  run_on(3, "three", around);
+  EXPECT_EQ(unlike(one, "three"), "");
+}
+
 // Its areas are found anew in every 400th step, in which many bonds break: ranks know only of those before.
 TEST_F(Ranks, a_pressed_skin_with_pieces_that_come_loose_changes_no_byte) {
   const std::vector<std::string> around{

@@ -116,6 +116,10 @@ void add_stages(std::vector<Arrangement> &all) {
   tube.metal.emplace().yield_strength = 20e6;
   tube.elements_around = 12, tube.elements_through = 2, tube.mass_damping = 100;
   add("tube_that_yields", thin_cylinder, s, {"compression"});
+  tube.metal.reset();
+  tube.wrap.emplace().rupture_strain = 1e-4;
+  tube.thickness = 0.1e-3, tube.elements_through = 1;
+  add("wrap_that_tears", thin_cylinder, s, {"compression"});
   s = base;
   s.loading.rate_multiplier = 4;
   add("rate_that_falls_as_the_specimen_fails", thin_cylinder, s, {"compression"});
