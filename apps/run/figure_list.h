@@ -35,7 +35,7 @@ enum Need : unsigned {
   broken_through = 1u << 21, // a load that has fallen to next to nothing, of the platens alone
   torn = 1u << 22            // a wrap that has begun to tear
 };
-constexpr unsigned read_off = history | peak | modulus | damage | consolidation;
+constexpr unsigned read_off = history | peak | modulus | damage | consolidation | torn;
 constexpr unsigned youngs = modulus | elastic | bare | stiffness | section | of_every_test,
                    poissons = modulus | elastic | bare | ratio | along_z;
 

@@ -170,9 +170,9 @@ void list_cell(List &list) {
   list.where([](auto &t) { return t.problem.tube() != nullptr && t.problem.tube()->yields(); });
   list.add("tube_plastic_work_j", "J", [](auto &t) { return t.problem.tube()->solid().plastic_work(); });
   list.where([](auto &t) { return t.problem.tube() != nullptr && t.problem.tube()->wraps(); });
-  list.add("strain_at_first_tear", "1", history | torn, {"strain at the first tear (platen)", "{:.5f}"},
+  list.add("strain_at_first_tear", "1", torn, {"strain at the first tear (platen)", "{:.5f}"},
            "wrap_torn_share", [](auto &t) { return at_first_tear(t, &Sample::strain_platen); });
-  list.add("hoop_strain_at_first_tear", "1", history | torn, {"mean strain of the hoops there", "{:.5f}"},
+  list.add("hoop_strain_at_first_tear", "1", torn, {"mean strain of the hoops there", "{:.5f}"},
            "wrap_torn_share wrap_hoop_strain", [](auto &t) { return at_first_tear(t, &Sample::wrap_hoop); });
   list.add("wrap_torn_energy_j", "J", [](auto &t) { return t.problem.tube()->solid().torn_energy(); });
   list.where([](auto &t) { return t.problem.skin() != nullptr; });

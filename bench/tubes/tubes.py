@@ -4,8 +4,7 @@
     bench/tubes/tubes.py BUILD FOLDER [JOBS]   runs what FOLDER lacks, JOBS (2) at a time; prints the tables, writes tubes.png there
 
 Each is scenes/filled_tube.prm at a reduced scale, its concrete 50 mm wide with 14 spheres across (without inertia and weight size does not count, and the fracture energy goes with it): the
-wall, the length and nothing else after the test. Concrete: that of the scene with all stresses times b = f_c/42.3 MPa, its moduli times b^.3 (EN 1992-1-1 table 3.1) and the fracture energy
-times b^2/b^.3 (docs/howto/ready_material.md). Steel: ideally plastic at the measured yield strength, since no row has more. Friction .57; of greased ones .03. Largest load: up to 3 % of closure.
+wall, the length and nothing else after the test. Concrete: concrete.py. Steel: ideally plastic at the measured yield strength, since no row has more. Friction .57; of greased ones .03. Largest load: up to 3 % of closure.
 """
 import concurrent.futures
 import pathlib
@@ -16,24 +15,18 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "python"), str(pathlib.Path(__file__).parent)]
 import codes
+import concrete
 import platen
 
 RADIUS = 25e-3  # m, of the model's concrete
 CLOSURES = (0.01, 0.02, 0.03)
-STRENGTH = 42.3e6  # Pa, of facet_concrete between dry platens, five packings
-BONDS = {"Modulus": ("Pa", 24e9, "a"), "Tensile strength": ("Pa", 3.15e6, "b"), "Shear strength": ("Pa", 6e6, "b"), "Transitional stress": ("Pa", 50e6, "b"),
-         "Fracture energy": ("J/m2", 15.5, "energy"), "Compression limits": ("Pa", (29e6, 65e6, 216e6), "b")}
 
 
 def entries(tube):
-    b = tube.f_c / STRENGTH
-    factor = {"a": b**0.3, "b": b, "energy": b**2 / b**0.3}
     scale = RADIUS / (tube.d / 2 - tube.t)
-    text = [f"Bond/{key} = " + ", ".join(f"{value * factor[by]:.6g} {unit}" for value in (values if isinstance(values, tuple) else (values,)))
-            for key, (unit, values, by) in BONDS.items()]
     steel = {"Steel": "custom", "Modulus": "210 GPa", "Poisson ratio": "0.3", "Density": "7850 kg/m3", "Yield strength": f"{tube.f_y:.6g} Pa",
              "Thickness": f"{tube.t * scale:.6g} m", "Friction": "0.03" if tube.greased else "0.57"}
-    return [*text, *(f"Sleeve/{key} = {value}" for key, value in steel.items()), f"Specimen/Height = {tube.length * scale:.6g} m",
+    return [*concrete.entries(tube.f_c), *(f"Sleeve/{key} = {value}" for key, value in steel.items()), f"Specimen/Height = {tube.length * scale:.6g} m",
             f"Loading/Target strain = {CLOSURES[-1]}", "Loading/Axial rate = 0.16 m/s", "Output/Fields = off"]
 
 

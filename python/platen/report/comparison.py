@@ -116,13 +116,14 @@ def page_of_runs(runs, measured=None):
     remarks = [f"{run.name}: {remark}" if several else remark for run in runs for remark in run.remarks]
     remarks += [f"{run.name}: no peak reached: the largest stress is not a strength" for run in runs if run.peak_reached is False]
     remarks += [*(measured.remarks if measured else []), *(biaxial_strengths(runs)[1] if several else [])]
+    wall = curves.wall_word(run)
     sections = [
         Section("Comparison", [*pictures(runs), *specimen.comparison(runs)] if several else []),
         Section("Stress and energy", curves.pictures_of_curves(run, measured), [laboratory.differences(run, measured)] if measured else []),
-        Section("The tube", tube.pictures_of_tube(run)), curves.section_of_stages(run), curves.section_of_sides(run), Section("Acoustic emission", curves.pictures_of_events(run)),
+        Section(f"The {wall}", tube.pictures_of_tube(run)), curves.section_of_stages(run), curves.section_of_sides(run), Section("Acoustic emission", curves.pictures_of_events(run)),
         Section("Interactive view", [], element=partial(view.element, run) if run.series("specimen") else None),
         Section("The specimen", specimen.pictures_of_specimen(run)), Section("Cracks", cracks.pictures_of_cracks(run)),
-        Section("Platens and ends", platens.pictures_of_ends(run)), Section("The tube, as it deforms" if run.has("total_load_n") else "The sleeve", specimen.pictures_of_sleeve(run)),
+        Section("Platens and ends", platens.pictures_of_ends(run)), Section("The sleeve" if wall == "sleeve" else f"The {wall}, as it deforms", specimen.pictures_of_sleeve(run)),
         Section("Computing time", curves.pictures_of_costs(run))]
     if several:  # all after the comparison is of the first run
         sections[1:] = [section and section._replace(heading=f"{section.heading}: {run.name}") for section in sections[1:]]

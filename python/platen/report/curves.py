@@ -128,6 +128,11 @@ def along_title(run):
     return "Time (ms)" if run.goes_back else run.strain_title + ", tension positive" * (_sign([run]) < 0)
 
 
+def wall_word(run):
+    """What a wall of finite elements around the specimen is called."""
+    return "wrap" if run.has("wrap_hoop_strain") else "tube" if run.has("total_load_n") else "sleeve"
+
+
 def _terms(run, main):
     """Terms of one of both charts that are not zero throughout."""
     most = {term: numpy.abs(numpy.nan_to_num(run.h[term[0]])).max() for term in (*MAIN, *SMALL, RESIDUAL) if run.has(term[0])}
@@ -139,8 +144,8 @@ def _terms(run, main):
 def energies(axes, run, main=True):
     """Over strain (time, where that goes back), where the work of the platens went; with main=False its small terms and the residual."""
     law, terms = run.entry("Effects/Bond"), _terms(run, main)
-    plastic = "plastic work of bonds" + (" and tube" if run.has("total_load_n") else "") + f" ({law or 'all laws'})"
-    bodies = [name for name, there in (("platens", "deformable" in run.entries.values()), ("tube" if run.has("total_load_n") else "sleeve", run.series("sleeve")),
+    plastic = "plastic work of bonds" + (" and tube" if wall_word(run) == "tube" else "") + f" ({law or 'all laws'})"
+    bodies = [name for name, there in (("platens", "deformable" in run.entries.values()), (wall_word(run), run.series("sleeve")),
                                        ("machine", run.entry("Platens/Machine stiffness"))) if there]
     small = max(numpy.nanmax(numpy.abs(run.h[column]), initial=0) for column, *_ in terms) < _SMALL_JOULES
     for column, words, colour, line in terms:

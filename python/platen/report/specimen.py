@@ -11,6 +11,7 @@ from matplotlib.colors import Normalize, to_rgb
 from matplotlib.ticker import MaxNLocator
 
 from ..errors import InputError
+from .curves import wall_word
 from .house import BLACK, BLUE, GREEN, MM, MPA, ORANGE, PURPLE, SKY, VERMILION, VIRIDIS, Picture, colour_bar
 from .platens import has_further_sides
 from .run import number_in, point_data, reading
@@ -339,8 +340,8 @@ def pictures_of_sleeve(run):
              for k, (time, when) in enumerate(later)]
             for which, factor, words in ((0, 100, "circumferential stretch (%)"), (2, MPA, "pressure of the spheres (MPa)"),
                                          (3, MM, "slip of the spheres (mm)"))]
-    name = "tube" if run.has("total_load_n") else "sleeve"
-    gaps = "" if name == "tube" else " (in gaps between spheres the pressure of the cell acts on the sleeve alone)"
+    name = wall_word(run)
+    gaps = "" if name != "sleeve" else " (in gaps between spheres the pressure of the cell acts on the sleeve alone)"
     return [
         *_row("sleeve", f"Half of the specimen in its {name} (brown), as they are deformed. Spheres are coloured by outward displacement: "
               f"where the {name} bulges, the specimen fails. Each panel has its own scale. The largest 5 % have the last colour.",

@@ -1,7 +1,7 @@
-"""What a steel tube around a specimen bears: loads of both, and stresses of the wall."""
+"""What a steel tube or a wrap around a specimen bears: loads of both, stresses of the wall, strains of the hoops."""
 import numpy
 
-from .curves import along, along_title
+from .curves import along, along_title, wall_word
 from .house import BLACK, BLUE, GREEN, MPA, ORANGE, VERMILION, chart, titled
 
 _KN = 1e-3
@@ -9,11 +9,11 @@ _KN = 1e-3
 
 def loads(axes, run):
     """Load of the platens on specimen and tube, and of each, over strain; a dot at the largest."""
-    way, both, tube = along(run), run.h["total_load_n"] * _KN, run.h["tube_load_n"] * _KN
+    way, both, tube, word = along(run), run.h["total_load_n"] * _KN, run.h["tube_load_n"] * _KN, wall_word(run)
     row = int(numpy.nanargmax(both))
-    axes.plot(way, both, color=BLACK, lw=1.8, label=f"tube and specimen: at most {both[row]:.4g} kN")
+    axes.plot(way, both, color=BLACK, lw=1.8, label=f"{word} and specimen: at most {both[row]:.4g} kN")
     axes.plot(way, both - tube, color=BLUE, label="specimen")
-    axes.plot(way, tube, "--", color=ORANGE, label="tube")
+    axes.plot(way, tube, "--", color=ORANGE, label=word)
     axes.plot(way[row], both[row], "o", color=BLACK)
     titled(axes, along_title(run), "Load (kN)", 2)
 
@@ -35,10 +35,22 @@ def stresses(axes, run):
     titled(axes, along_title(run), "Stress (MPa)", 2)
 
 
+def hoops(axes, run):
+    """Strains of the hoops of a wrap over strain, and what has torn."""
+    way = along(run)
+    for column, words, colour, line in (("wrap_hoop_strain", "mean of the middle half", BLUE, "-"), ("wrap_largest_hoop_strain", "of any element not torn", VERMILION, "--"),
+                                        ("wrap_torn_share", "elements that have torn", BLACK, ":")):
+        axes.plot(way, run.h[column] * 100, line, color=colour, label=words)
+    titled(axes, along_title(run), "Hoop strain, share (%)", 2)
+
+
 def pictures_of_tube(run):
-    """The Pictures of the tube; [] of a run without one."""
+    """The Pictures of the tube or wrap; [] of a run without one."""
     if not run.has("total_load_n", "tube_load_n", "tube_axial_stress_pa", "tube_hoop_stress_pa", "tube_pressure_pa"):
         return []
+    if wall_word(run) == "wrap":
+        return [chart("wrap", "What the specimen bears, and the strains of the wrap's hoops. The second line begins where the concrete, about to fail, presses the wrap; "
+                      "it ends where an element of it reaches its rupture strain and the tear runs.", loads, hoops, run=run, heights=[3.2, 2.8], shared=True, margin=0.9)]
     return [chart("tube", "What tube and specimen bear, and the stresses of the tube's middle half. The tube yields along its axis first; as the "
                   "specimen presses it, its hoop stress grows and its axial stress falls on von Mises' ellipse. The curve of both need not have "
                   "a peak.", loads, stresses, run=run, heights=[3.2, 2.8], shared=True, margin=0.9)]
