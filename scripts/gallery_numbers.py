@@ -29,6 +29,7 @@ OF_A_RUN = [
     Column("load of tube and specimen", "largest_load_n", 1e3, " kN"),
     Column("of which on the tube", "tube_load_at_largest_n", 1e3, " kN"),
     Column("hoop stress of the tube", "tube_hoop_stress_at_largest_pa", 1e6, " MPa"),
+    Column("mean hoop strain at the first tear", "hoop_strain_at_first_tear", 1e-2, " %"),
     Column("bulk modulus", "bulk_modulus_pa", 1e9, " GPa"),
     Column("constrained modulus", "constrained_modulus_pa", 1e9, " GPa"),
     Column("lateral over axial stress", "lateral_over_axial_stress"),

@@ -41,6 +41,7 @@ GROUPS = [
         Scene("triaxial_cement", COMPRESS, "stress_strain"),
         Scene("filled_tube", COMPRESS, "sleeve"),
         Scene("greased_tube", COMPRESS, "tube"),
+        Scene("wrapped", COMPRESS, "wrap"),
         Scene("hydrostatic_concrete", COMPRESS, "stress_strain"),
         Scene("uniaxial_strain_concrete", COMPRESS, "stress_strain"),
     ]),

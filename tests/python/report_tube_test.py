@@ -24,6 +24,14 @@ class Tubes(WithRuns):
         self.assertAlmostEqual(stress[1], 300e6)
         self.assertAlmostEqual(stress[2], math.sqrt(200**2 + 150**2 + 200 * 150) * 1e6, places=3)
 
+    def test_a_wrap_shows_the_strains_of_its_hoops_instead_of_stresses(self):
+        wrap = {**COLUMNS, "wrap_hoop_strain": [0, 0.002, 0.004], "wrap_largest_hoop_strain": [0, 0.003, 0.005], "wrap_torn_share": [0, 0, 0.25]}
+        loads, hoops = lines_of(tube.pictures_of_tube(self.run_of(wrap))[0])
+        self.assertIn("wrap and specimen: at most 9 kN", loads)
+        for words, values in (("mean of the middle half", [0, 0.2, 0.4]), ("of any element not torn", [0, 0.3, 0.5]),
+                              ("elements that have torn", [0, 0, 25])):
+            self.assertEqual([round(float(y), 9) for y in hoops[words][:, 1]], values, words)
+
     def test_a_run_without_a_tube_has_no_such_picture(self):
         self.assertEqual(tube.pictures_of_tube(self.run_of({"z": [0, 1, 2]})), [])
 
