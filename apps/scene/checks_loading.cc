@@ -120,9 +120,8 @@ void SceneCheck::tube() const {
            "does not go with Sleeve/Kind = tube or wrap, which stand in no cell. Allowed: 0.");
   const coupling::SleeveSettings &wall = *loading.cell->sleeve;
   if (loading.wrapped()) {
-    for (const char *path : {"Sleeve/Modulus", "Sleeve/Thickness"})
-      if (!parameters_.at(path).changed())
-        refuse(path, "is that of rubber: a wrap needs its own. Allowed: that of the wrap.");
+    if (!parameters_.at("Sleeve/Thickness").changed())
+      refuse("Sleeve/Thickness", "is that of rubber: a wrap needs its own. Allowed: that of the wrap.");
     return;
   }
   if (!parameters_.at("Sleeve/Modulus").changed() && loading.steel == Steel::custom)
