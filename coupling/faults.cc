@@ -260,6 +260,12 @@ private:
               "makes the sleeve lighter. Allowed: 0, or 1 and more.");
     refuse_if(sleeve.elements_around > 0 && sleeve.elements_around < 8, "sleeve.elements_around",
               "is too few for a tube. Allowed: 0, or 8 and more.");
+    if (!(sleeve.contact.bond.strength > 0)) return;
+    refuse_if(sleeve.gap > 0, "sleeve.gap",
+              "leaves nothing that `sleeve.bond_strength` could hold. Allowed: 0, or no bond.");
+    refuse_if(sleeve.seat_layer == 0, "sleeve.seat_layer",
+              "leaves no sphere flush with the tube, and `sleeve.bond_strength` holds these. Allowed: above "
+              "0, or no bond.");
   }
 
   void tube(const SleeveSettings &tube) {

@@ -175,6 +175,8 @@ void list_cell(List &list) {
   list.add("hoop_strain_at_first_tear", "1", torn, {"mean strain of the hoops there", "{:.5f}"},
            "wrap_torn_share wrap_hoop_strain", [](auto &t) { return at_first_tear(t, &Sample::wrap_hoop); });
   list.add("wrap_torn_energy_j", "J", [](auto &t) { return t.problem.tube()->solid().torn_energy(); });
+  list.where([](auto &t) { return t.problem.tube() != nullptr && t.problem.tube()->is_bonded(); });
+  list.add("tube_bonded_share", "1", [](auto &t) { return t.problem.tube()->layer().bonded_share(); });
   list.where([](auto &t) { return t.problem.skin() != nullptr; });
   list.add("skin_spheres", "1", [](auto &t) { return t.problem.skin()->skin().size(); });
   list.add("skin_coverage", "1", [](auto &t) {

@@ -64,6 +64,9 @@ bool in_metal(const PlatenTest &p) {
 bool in_wrap(const PlatenTest &p) {
   return in_tube(p) && p.tube()->wraps();
 }
+bool in_bonded_tube(const PlatenTest &p) {
+  return in_tube(p) && p.tube()->is_bonded();
+}
 bool of_disc(const PlatenTest &p) {
   return p.shape().kind == dem::ShapeKind::disc;
 }
@@ -237,6 +240,8 @@ const std::vector<HistoryColumn> &history_columns() {
       {"tube_yielded_share", "1", nullptr, [](const Seen &s) { return s.wall.yielded; }, number, in_metal},
       {"tube_bulge_m", "m", nullptr, [](const Seen &s) { return s.wall.bulge; }, number, in_tube},
       {"tube_slip_m", "m", nullptr, [](const Seen &s) { return s.problem.tube()->slip(); }, number, in_tube},
+      {"tube_bonded_share", "1", nullptr,
+       [](const Seen &s) { return s.problem.tube()->layer().bonded_share(); }, number, in_bonded_tube},
       {"wrap_hoop_strain", "1", &S::wrap_hoop, [](const Seen &s) { return s.wall.hoop_strain; }, number,
        in_wrap},
       {"wrap_largest_hoop_strain", "1", &S::wrap_most_hoop, [](const Seen &s) { return s.wall.most_hoop; },

@@ -63,6 +63,13 @@ SleeveSettings with_elements(const dem::Particles &particles, const dem::Shape &
   return s;
 }
 
+double inner_area(const fem::HyperelasticSolid &solid) { // m^2
+  double area = 0;
+  for (std::size_t face = 0; face < solid.surface().faces.size(); ++face)
+    area += norm(fem::face_area_vector(solid.surface(), face));
+  return area;
+}
+
 } // namespace
 
 Sleeve::Sleeve(const dem::Particles &particles, const dem::Shape &shape, double low, double high,
@@ -107,6 +114,7 @@ void Sleeve::build(const dem::Particles &particles) {
   if (settings_.seat_depth > 0)
     contact_->seat_within(particles, *solid_, settings_.seat_depth + gap, false,
                           [gap](const Vector3 &) { return gap; });
+  if (is_bonded()) contact_->bond_seats(particles, inner_area(*solid_));
   volume_at_start_ = inner_volume();
   ring_ = solid_->volume() / (high_ - low_);
 }

@@ -110,6 +110,12 @@ void SleeveSettings::describe(Visitor &&v, Self &p) {
     "By which each end of a tube stands off its platen, so that the concrete alone is loaded; 0: platens "
     "press "
     "tube and concrete together.");
+  v("bond_strength", p.contact.bond.strength, "Pa", at_least(0),
+    "Cohesion in shear of the spheres that lie flush with it, until it breaks; 0: they only rub.");
+  v("bond_tension", p.contact.bond.tension, "Pa", above(0),
+    "The same in tension; as in shear where not given.");
+  v("bond_slip", p.contact.bond.slip, "m", at_least(0),
+    "Slip over which the cohesion falls to nothing, in a straight line; 0: it breaks where it first slides.");
   v("stiffness", p.stiffness, "1", between(0, 1000),
     "Penalty stiffness of grains on it, as a multiple of the mean bond's; 0: that of the bond for a tube; "
     "for "
@@ -181,6 +187,7 @@ public:
   double specimen_pressure() const; // Pa, of the specimen on the middle half of its inner face, mean
   double slip() const;              // m, mean path along it of the specimen's spheres that touch it
   long torn_elements() const;
+  bool is_bonded() const { return settings_.contact.bond.strength > 0; }
   static constexpr const char *reason_of_limit =
       "the finite elements of the sleeve with the springs of its contacts";
 

@@ -37,6 +37,14 @@ void check(const SurfaceContact &p, bool rotation) {
           "surface contact: slip length must be positive");
   require(p.weakening.by != By::velocity || p.weakening.slip_velocity > 0,
           "surface contact: slip velocity must be positive");
+  require(p.bond.strength == 0 || p.bond.strength > 0, "surface contact: bond strength must not be negative");
+  if (p.bond.strength > 0) {
+    require(!(p.bond.tension <= 0), "surface contact: bond tension must be positive");
+    require(p.bond.slip >= 0, "surface contact: bond slip must not be negative");
+    require(!p.hertz && p.attachment == Attachment::free && p.weakening.by == By::nothing &&
+                p.dynamic() == p.friction_static,
+            "surface contact: a bond goes with linear springs and one coefficient of friction");
+  }
   require(p.damping >= 0 && std::isfinite(p.damping), "surface contact: damping must not be negative");
   require(p.seat_modulus >= 0 && std::isfinite(p.seat_modulus),
           "surface contact: seat modulus must not be negative");
@@ -82,7 +90,8 @@ ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSur
     smallest_radius_ = std::min(smallest_radius_, r);
   allow_for_depth();
   const bool friction = parameters.friction_static > 0 || parameters.dynamic() > 0;
-  const bool tangential = friction || parameters.attachment == Attachment::glued;
+  const bool bond = parameters.bond.strength > 0;
+  const bool tangential = friction || bond || parameters.attachment == Attachment::glued;
   if (tangential || parameters.seat_modulus > 0)
     normal_ = &table_.add<Vector3>("normal", "1", unit_length_or_zero());
   if (tangential) {
@@ -92,11 +101,12 @@ ContactLayer::ContactLayer(const dem::Particles &particles, const fem::LoadedSur
     if (parameters.hertz)
       tangential_stiffness_ = &table_.add<double>("tangential_stiffness", "N/m", at_least(0));
   }
+  if (bond) bond_ = &table_.add<double>("bond", "1", between(0, 1));
   if (parameters.seat_modulus > 0) {
     seat_spring_ = &table_.add<Vector3>("seat_moment", "N m");
     seat_sliding_ = &table_.add<int>("seat_sliding", "1", flag());
   }
-  const bool plain = !parameters.hertz && seat_spring_ == nullptr &&
+  const bool plain = !parameters.hertz && seat_spring_ == nullptr && !bond &&
                      parameters.attachment == Attachment::free &&
                      (!friction || parameters.weakening.by == dem::Weakening::By::nothing);
   if (plain && parameters.in_lanes) compute_rows_ = kernels::compute_rows(parameters.instruction_set);
@@ -160,6 +170,22 @@ int ContactLayer::seat_within(const dem::Particles &particles, const fem::Loaded
 
 int ContactLayer::seats() const {
   return static_cast<int>(seated_particles().size());
+}
+
+void ContactLayer::bond_seats(const dem::Particles &particles, double area) {
+  double squares = 0; // m^2
+  for (const int particle : seated_particles())
+    squares += particles.radius[index(particle)] * particles.radius[index(particle)];
+  require(bond_ != nullptr && squares > 0, "surface contact: nothing touches the face that is to be bonded");
+  bonded_area_ = area / squares;
+  for (std::size_t row = 0; row < table_.size(); ++row)
+    (*bond_)[row] = seated_[row];
+}
+
+double ContactLayer::bonded_share() const {
+  if (bond_ == nullptr) return not_given;
+  const auto whole = std::count_if(bond_->begin(), bond_->end(), [](double left) { return left > 0; });
+  return static_cast<double>(whole) / seats();
 }
 
 std::vector<int> ContactLayer::seated_particles() const {

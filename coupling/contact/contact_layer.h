@@ -33,6 +33,7 @@
 #include "coupling/contact/servo_load.h"
 #include "coupling/contact/shared_contacts.h"
 #include "coupling/contact/surface_search.h"
+#include "dem/laws/cohesive_friction.h"
 #include "dem/laws/friction_law.h"
 #include "dem/laws/hertz_on_plane.h"
 #include "dem/particles.h"
@@ -44,6 +45,13 @@ namespace platen::coupling {
 enum class Attachment {
   free, // contact only: pushes, slides, opens
   glued // seated particles are tied to the surface: push and pull, no limit to the tangential force
+};
+
+// Of seated particles to the face, until it breaks (dem/laws/cohesive_friction.h).
+struct SurfaceBond {
+  double strength = 0;        // Pa, cohesion in shear; 0: no bond
+  double tension = not_given; // Pa, not given: as in shear
+  double slip = 0;            // m, at which nothing of it is left; 0: it breaks where it first slides
 };
 
 // Frictionless surfaces have no tangential columns.
@@ -58,6 +66,8 @@ struct SurfaceContact : dem::SurfaceFriction {
   double tangential_ratio = 0.8;                    // k_t / k_n, > 0
   double damping = 0;                               // fraction of critical, >= 0
   Attachment attachment = Attachment::free;
+  // Its area is that given to bond_seats(). Excludes glue, Hertz and friction of two coefficients.
+  SurfaceBond bond;
   // Pa, Young's modulus G_b of the bonds: a seated sphere resists rocking by 2 G_b pi R^3 / 8 per radian up
   // to the moment .5 N R. Zero: no seat. Needs rotation.
   double seat_modulus = 0;
@@ -95,6 +105,11 @@ public:
   int seat_within(const dem::Particles &particles, const fem::LoadedSurface &body, double depth,
                   bool upright = false, const std::function<double(const Vector3 &)> &below = {});
   int seats() const;
+  // Bonds every seat over its part of `area` (m^2), by its radius squared: as much as its sphere covers of
+  // the face. Throws std::invalid_argument where there is none.
+  void bond_seats(const dem::Particles &particles, double area);
+  // Of the seats, those whose bond has not broken; NaN without bonds.
+  double bonded_share() const;
 
   // Once per step, after the drift: no particle has moved relative to the surface by more than `distance` (m)
   // since the last call. Throws std::runtime_error where that is more than the smallest radius: a particle
@@ -190,6 +205,7 @@ private:
     Vector3 moment;          // N m, of the seat
     dem::CoulombFriction::State spring, seat;
     double tangential_stiffness = 0;                         // N/m
+    double bond = 0;                                         // 1, part that is left
     double depth = 0;                                        // 1, overlap over radius
     double idle_until = 0;                                   // m, of travelled_
     double slip = 0;                                         // m
@@ -219,6 +235,7 @@ private:
   double tangential_ratio() const;
   double seat_stiffness(double radius) const; // N m/rad, of a sphere's flat end
   bool tied(std::size_t row) const;
+  bool bonded(std::size_t row) const { return bond_ != nullptr && (*bond_)[row] > 0; }
   bool holds_history(std::size_t row) const;
   void compute_in_lanes(const dem::Particles &particles, const fem::LoadedSurface &body, double dt,
                         std::size_t first, std::size_t count, const SurfacePoints &points);
@@ -230,6 +247,8 @@ private:
   double tangential_spring(std::size_t row, const Kinematics &motion, const Vector3 &stretch, Vector3 &spring,
                            RowForce &result);
   void tangential_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
+  dem::CohesiveFriction bond_of(double radius) const;
+  void let_go(std::size_t row, const Kinematics &motion, double dt, RowForce &result) const;
   void seat_moment(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   void keep_history(std::size_t row, RowForce &result);
   void push_particle(dem::Particles &particles, std::size_t k) const;
@@ -239,6 +258,7 @@ private:
   SurfaceContact parameters_;
   kernels::ComputeRows compute_rows_ = nullptr; // null: row by row
   double stiffness_ = 0;                        // N/m, of the whole contact
+  double bonded_area_ = 0;                      // 1, of a bond over its sphere's radius squared
   double smallest_radius_;
   SurfaceSearch search_;
 
@@ -252,6 +272,7 @@ private:
   Column<int> *sliding_ = nullptr;                 // the same
   Column<double> *slip_ = nullptr;                 // m, the same
   Column<double> *tangential_stiffness_ = nullptr; // N/m, the same; only of Hertz, where it changes
+  Column<double> *bond_ = nullptr;                 // 1, part that is left; with a bond
   Column<Vector3> *seat_spring_ = nullptr;         // N m; with seats
   Column<int> *seat_sliding_ = nullptr;
 

@@ -174,6 +174,7 @@ void ContactLayer::keep_history(std::size_t row, RowForce &r) {
     (*spring_)[row] = r.spring.spring;
     (*sliding_)[row] = r.spring.sliding;
     (*slip_)[row] = r.active ? (*slip_)[row] + r.slip : 0;
+    if (bond_ != nullptr) (*bond_)[row] = r.bond;
     if (tangential_stiffness_ != nullptr) (*tangential_stiffness_)[row] = r.tangential_stiffness;
   }
   if (seat_spring_ != nullptr) {
@@ -190,7 +191,7 @@ void ContactLayer::row_force(const dem::Particles &particles, const fem::LoadedS
   Kinematics motion;
   motion.radius = particles.radius[i];
   motion.gap = result.at.distance - particles.radius[i] - offset_[row];
-  result.active = motion.gap < 0 || tied(row);
+  result.active = motion.gap < 0 || tied(row) || bonded(row);
   if (!result.active && !holds_history(row)) {
     result.idle_until = travelled_ + (1 - idle_margin) * motion.gap;
     return;
@@ -238,7 +239,7 @@ void ContactLayer::press(const SurfacePoint &at, double mass, Kinematics &motion
 void ContactLayer::normal_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result) {
   if (result.active) {
     result.normal_force = motion.pressing - motion.c_n * motion.opening_speed;
-    if (!tied(row)) result.normal_force = std::max(0.0, result.normal_force);
+    if (!tied(row) && !bonded(row)) result.normal_force = std::max(0.0, result.normal_force);
     result.dashpot = result.normal_force - motion.pressing;
     result.elastic = motion.stored;
   }
@@ -278,14 +279,36 @@ void ContactLayer::tangential_force(std::size_t row, const Kinematics &motion, d
   const double pressing = tied(row) ? 1 : (result.active ? result.normal_force : 0);
   const dem::FrictionLaw friction = dem::friction_law(parameters_);
   const CoulombFriction *constant = tied(row) ? &glue : std::get_if<CoulombFriction>(&friction);
-  const CoulombFriction::Result t = constant != nullptr
-                                        ? (*constant)(state, stretch, pressing, k_t)
-                                        : dem::slide_weakening(friction, state, stretch, pressing, k_t, dt);
+  result.bond = bonded(row) ? (*bond_)[row] : 0;
+  const CoulombFriction::Result t =
+      bonded(row)           ? bond_of(motion.radius)(state, result.bond, stretch, pressing, k_t)
+      : constant != nullptr ? (*constant)(state, stretch, pressing, k_t)
+                            : dem::slide_weakening(friction, state, stretch, pressing, k_t, dt);
   result.spring = state;
   result.shear = t.force;
   result.slip = t.slip;
   result.friction_loss += t.dissipated;
   result.elastic += 0.5 * norm_squared(t.force) / k_t;
+  if (bonded(row) && !(result.bond > 0) && result.normal_force < 0) let_go(row, motion, dt, result);
+}
+
+// A bond that has broken pulls no longer. What its spring held is lost as friction: the leapfrog saw the
+// previous force over half of the opening.
+void ContactLayer::let_go(std::size_t row, const Kinematics &motion, double dt, RowForce &result) const {
+  result.active = motion.gap < 0;
+  result.normal_force = 0;
+  result.dashpot = result.active ? -motion.pressing : 0;
+  result.damping_loss = -0.5 * (dashpot_[row] + result.dashpot) * motion.opening_speed * dt;
+  if (result.active) return;
+  result.elastic -= motion.stored;
+  result.friction_loss += 0.5 * motion.k_n * motion.gap * (motion.gap - motion.opening_speed * dt);
+}
+
+dem::CohesiveFriction ContactLayer::bond_of(double radius) const {
+  const SurfaceBond &bond = parameters_.bond;
+  const double area = bonded_area_ * radius * radius; // m^2
+  return {{parameters_.friction_static, bond.strength * area,
+           (std::isnan(bond.tension) ? bond.strength : bond.tension) * area, bond.slip}};
 }
 
 // A flat end of a ground sphere rocks on an elastic base: a spring with a limit, the law of friction with

@@ -56,8 +56,8 @@ TEST_F(Ranks, elastic_platens_and_a_sleeve_change_no_byte) {
   EXPECT_EQ(unlike(one, "three"), "");
 }
 
-TEST_F(Ranks, a_tube_that_yields_changes_no_byte) {
-  const std::vector<std::string> around{
+TEST_F(Ranks, a_tube_that_yields_and_comes_off_changes_no_byte) {
+  std::vector<std::string> around{
       "-s", "Loading/Confinement = sleeve", "-s", "Sleeve/Kind = tube",
       "-s", "Sleeve/Steel = S235",          "-s", "Sleeve/Yield strength = 40 MPa",
       "-s", "Sleeve/Thickness = 0.5 mm",    "-s", "Loading/Target strain = 0.004"};
@@ -65,6 +65,13 @@ TEST_F(Ranks, a_tube_that_yields_changes_no_byte) {
   EXPECT_GT(summary_in(one)["tube_plastic_work_j"], 0);
   run_on(3, "three", around);
   EXPECT_EQ(unlike(one, "three"), "");
+  around.insert(around.end(), {"-s", "Sleeve/Bond strength = 10 MPa", "-s", "Sleeve/Bond slip = 2 um"});
+  const fs::path bonded = whole(around);
+  const double share = summary_in(bonded)["tube_bonded_share"];
+  EXPECT_GT(share, 0.1);
+  EXPECT_LT(share, 0.9);
+  run_on(3, "bonded", around);
+  EXPECT_EQ(unlike(bonded, "bonded"), "");
 }
 
 TEST_F(Ranks, a_wrap_that_tears_changes_no_byte) {

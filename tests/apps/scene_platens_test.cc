@@ -61,6 +61,7 @@ TEST(ScenePlatens, a_tube_arrives_with_its_steel) {
                      "Sleeve/Kind = tube",         "Sleeve/Steel = S275",     "Sleeve/Thickness = 2 mm",
                      "Sleeve/Clearance = 1 mm",    "Sleeve/Gap = 0.1 mm",     "Sleeve/Friction = 0.2",
                      "Sleeve/Elements through = 3"};
+  const Entries adheres{"Sleeve/Gap = 0 mm", "Sleeve/Bond strength = 0.5 MPa", "Sleeve/Bond slip = 0.1 mm"};
   const auto settings = [&](const Entries &more) {
     Entries all = tube;
     all.insert(all.end(), more.begin(), more.end());
@@ -84,6 +85,11 @@ TEST(ScenePlatens, a_tube_arrives_with_its_steel) {
   EXPECT_FALSE(wall.bonded_rims);
   EXPECT_EQ(settings({"Sleeve/Yield strength = 300 MPa"}).tube->metal->yield_strength, 300e6);
   EXPECT_EQ(settings({"Sleeve/Rims = bonded"}).tube->bonded_rims, true);
+  EXPECT_EQ(wall.contact.bond.strength, 0);
+  const coupling::SurfaceBond bond = settings(adheres).tube->contact.bond;
+  EXPECT_EQ(bond.strength, 0.5e6);
+  EXPECT_EQ(bond.slip, 1e-4);
+  EXPECT_TRUE(std::isnan(bond.tension));
   const coupling::LoadingSettings rubber =
       problem_settings(scene_with({"Specimen/Shape = cylinder", "Specimen/Radius = 50 mm",
                                    "Loading/Confinement = sleeve", "Loading/Confining pressure = 1 MPa"}))

@@ -116,7 +116,9 @@ void add_stages(std::vector<Arrangement> &all) {
   tube.metal.emplace().yield_strength = 20e6;
   tube.elements_around = 12, tube.elements_through = 2, tube.mass_damping = 100;
   add("tube_that_yields", thin_cylinder, s, {"compression"});
-  tube.metal.reset();
+  s.loading.tube->contact.bond = {5e6, 2e6, 2e-6};
+  add("tube_that_comes_off", thin_cylinder, s, {"compression"});
+  tube.metal.reset(), tube.contact.bond = {};
   tube.wrap.emplace().rupture_strain = 1e-4;
   tube.thickness = 0.1e-3, tube.elements_through = 1;
   add("wrap_that_tears", thin_cylinder, s, {"compression"});

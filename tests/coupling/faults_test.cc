@@ -316,6 +316,7 @@ TEST(Faults, one_thing_presses_a_side) {
   Settings pressed = cylinder();
   press(pressed);
   const auto sleeve = [](Settings &s) { s.loading.cell->sleeve.emplace(); };
+  const auto bonded = [&](Settings &s) { sleeve(s), s.loading.cell->sleeve->contact.bond.strength = 1; };
   expect_faults({{"loading.cell", "uniaxial strain", put_wall},
                  {"loading.cell", "needs bonds", leave_bonds_out},
                  {"loading.servo", "does not go with `loading.cell`", control_stress},
@@ -327,7 +328,13 @@ TEST(Faults, one_thing_presses_a_side) {
                  {"", "", [&](Settings &s) { sleeve(s), s.loading.cell->sleeve->mass_scaling = 1; }},
                  {"sleeve.elements_around", "too few for a tube",
                   [&](Settings &s) { sleeve(s), s.loading.cell->sleeve->elements_around = 7; }},
-                 {"", "", [&](Settings &s) { sleeve(s), s.loading.cell->sleeve->elements_around = 8; }}},
+                 {"", "", [&](Settings &s) { sleeve(s), s.loading.cell->sleeve->elements_around = 8; }},
+                 {"sleeve.gap", "nothing that `sleeve.bond_strength` could hold",
+                  [&](Settings &s) { bonded(s), s.loading.cell->sleeve->gap = 1e-9; }},
+                 {"sleeve.seat_layer", "no sphere flush with the tube",
+                  [&](Settings &s) { bonded(s), s.loading.cell->sleeve->seat_layer = 0; }},
+                 {"", "", [&](Settings &s) { sleeve(s), s.loading.cell->sleeve->seat_layer = 0; }},
+                 {"", "", bonded}},
                 pressed, dem::cylinder(0.02, 0.04));
   sleeve(pressed);
   const dem::Shape box = dem::box(0.02, 0.02, 0.04);
