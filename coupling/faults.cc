@@ -285,6 +285,7 @@ private:
           tube.gap > most_gap * shape_->radius, "sleeve.gap",
           "is more than a tenth of the radius. Allowed: up to " + text_of(most_gap * shape_->radius) + " m.");
     }
+    if (tube.recess > 0) recess(tube.recess);
     if (tube.metal) metal(tube, *tube.metal);
     if (tube.wrap) wrap(tube, *tube.wrap);
   }
@@ -324,6 +325,22 @@ private:
                   " Pa or more, or no ultimate strength.");
     refuse_if((metal.saturation > 0) != (metal.saturation_rate > 0), "sleeve.metal.saturation_rate",
               "and the saturation go together. Allowed: both above 0, or none.");
+  }
+
+  // The specimen ends short of a platen.
+  void recess(double recess) {
+    refuse_if(shape_ != nullptr && 2 * recess > most_clearance * shape_->height, "sleeve.recess",
+              "leaves more than a third of the tube empty. Allowed: up to " +
+                  text_of(0.5 * most_clearance * (shape_ != nullptr ? shape_->height : 0)) + " m.");
+    refuse_if(
+        has_servo(), "sleeve.recess",
+        "leaves a platen that is asked for a stress nothing to press. Allowed: 0, or no `loading.servo` "
+        "and no stage that asks the top platen for a stress.");
+    refuse_if(p_.glued, "platens.glued",
+              "holds ends that `sleeve.recess` keeps off the platens. Allowed: contact.");
+    refuse_if(
+        !l_.unload_at.empty(), "loading.unload_at",
+        "waits for the stress of a specimen that `sleeve.recess` keeps off the platens. Allowed: none.");
   }
 
   void sides() {

@@ -142,8 +142,8 @@ void PlatenTest::add_platens(const dem::Specimen &specimen) {
     if (side == Side::top) elastic_top_ = made.elastic;
     add(std::move(made.platen));
   }
-  ends_.emplace(EndPlatens{bottom(), top(), platen_plane(specimen, Side::bottom, settings_.ends),
-                           platen_plane(specimen, Side::top, settings_.ends)});
+  ends_.emplace(EndPlatens{bottom(), top(), platen_plane(specimen, settings_, Side::bottom),
+                           platen_plane(specimen, settings_, Side::top)});
 }
 
 std::optional<PlatenCover> PlatenTest::cover(Side side) const {
@@ -185,8 +185,9 @@ void PlatenTest::seat_platens(const dem::Specimen &specimen) {
   const double depth = settings_.end_layer * dem::mean_radius(specimen);
   if (are_ground(settings_.ends) || settings_.platens.glued) {
     const auto seats = [&](Platen &platen, Side side) {
-      const auto below = [&](const Vector3 &x) { return depth_of_end(shape(), settings_, side, x); };
-      return platen.layer().seat_within(model.particles, platen.body(), depth, bent(), below);
+      const double recess = recess_of(settings_, side);
+      const auto below = [&](const Vector3 &x) { return depth_of_end(shape(), settings_, side, x) + recess; };
+      return platen.layer().seat_within(model.particles, platen.body(), depth + recess, bent(), below);
     };
     for (const Side side : all_sides)
       if (Platen *platen = platens_[static_cast<std::size_t>(side)];

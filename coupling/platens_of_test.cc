@@ -17,14 +17,20 @@
 #include "fem/rigid_body.h"
 
 namespace platen::coupling {
-double platen_plane(const dem::Specimen &s, Side side, Ends ends) {
+double recess_of(const PlatenTestSettings &settings, Side side) {
+  const std::optional<SleeveSettings> &tube = settings.loading.tube;
+  return tube && (side == Side::bottom || (side == Side::top && tube->clearance == 0)) ? tube->recess : 0;
+}
+
+double platen_plane(const dem::Specimen &s, const PlatenTestSettings &settings, Side side) {
   const int axis = axis_of(side);
-  if (are_ground(ends)) return extent(s.shape, axis)[is_high(side)];
+  const double outward = (is_high(side) ? 1 : -1) * recess_of(settings, side);
+  if (are_ground(settings.ends)) return extent(s.shape, axis)[is_high(side)] + outward;
   double plane = (is_high(side) ? -1 : 1) * std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < s.size(); ++i)
     plane = is_high(side) ? std::max(plane, s.centre[i][axis] + s.radius[i])
                           : std::min(plane, s.centre[i][axis] - s.radius[i]);
-  return plane;
+  return plane + outward;
 }
 
 namespace {
@@ -53,7 +59,7 @@ namespace {
 // The middle of the top platen's face, about which it turns on a seat.
 Vector3 seat_of(const dem::Specimen &s, const PlatenTestSettings &settings) {
   return {settings.platens.eccentricity, 0,
-          platen_plane(s, Side::top, settings.ends) + lift(s.shape, settings.platens.tilt)};
+          platen_plane(s, settings, Side::top) + lift(s.shape, settings.platens.tilt)};
 }
 
 // A plane platen turned as it meets the specimen, whose edge it touches.
@@ -83,7 +89,7 @@ std::array<int, 3> elements_of_plate(const PlatenSettings &p, double half_x, dou
 std::vector<fem::BoxPlate> bending_strips(const dem::Specimen &s, const PlatenTestSettings &settings,
                                           bool top) {
   const PlatenSettings &p = settings.platens;
-  const double plane = platen_plane(s, top ? Side::top : Side::bottom, settings.ends),
+  const double plane = platen_plane(s, settings, top ? Side::top : Side::bottom),
                thickness = thickness_of(p, top ? Side::top : Side::bottom),
                low = top ? plane : plane - thickness;
   const double x = 0.5 * p.strip_width, y = 0.5 * p.overhang * s.shape.width_y;
@@ -136,7 +142,7 @@ void narrow_to_strip(fem::BoxPlate &plate, const PlatenSettings &p) {
 fem::Grid platen_grid(const dem::Specimen &s, const PlatenTestSettings &settings, Side side) {
   const PlatenSettings &p = settings.platens;
   const bool high = is_high(side);
-  const double plane = platen_plane(s, side, settings.ends), thickness = thickness_of(p, side),
+  const double plane = platen_plane(s, settings, side), thickness = thickness_of(p, side),
                low = high ? plane : plane - thickness;
   const auto made = [&](const auto &plate, double half_width) {
     return p.elastic ? fem::make_grid(plate, elements_of_layers(p, side, half_width)) : fem::make_grid(plate);

@@ -19,8 +19,11 @@ PlatenOfTest make_platen(const dem::Specimen &specimen, const PlatenTestSettings
 double cells_of_platen(const dem::Shape &shape, const PlatenTestSettings &settings, Side side);
 
 // Position of a platen's face at the start, along the axis of its side (m): with ends as packed it touches
-// the outermost sphere, with ground ends it lies in the end plane.
-double platen_plane(const dem::Specimen &specimen, Side side, Ends ends);
+// the outermost sphere, with ground ends it lies in the end plane, from which it stands off by a tube's
+// recess.
+double platen_plane(const dem::Specimen &specimen, const PlatenTestSettings &settings, Side side);
+// m, of a tube, at this side.
+double recess_of(const PlatenTestSettings &settings, Side side);
 inline double half_width(const dem::Shape &shape) { // m, along x
   return shape.kind == dem::ShapeKind::box ? 0.5 * shape.width_x : shape.radius;
 }

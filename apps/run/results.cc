@@ -298,11 +298,14 @@ double Results::lateral_over_axial() const {
   return c.found ? at(c, &Sample::confining_pressure) / (modulus_share * peak_) : not_measured;
 }
 
-// Without an axial stage the energy balance is read from half the pressure on.
+// Without an axial stage the energy balance is read from half the pressure on, of a tube alone from half its
+// load.
 std::size_t Results::whole_balance_from() const {
   if (peak_ > 0) return ascending(whole_share).after;
+  double Sample::*const load =
+      !samples_.empty() && samples_.back().total_load > 0 ? &Sample::total_load : &Sample::confining_pressure;
   std::size_t k = 0;
-  while (k + 1 < samples_.size() && samples_[k].confining_pressure < 0.5 * samples_.back().confining_pressure)
+  while (k + 1 < samples_.size() && samples_[k].*load < 0.5 * samples_.back().*load)
     ++k;
   return k;
 }

@@ -134,6 +134,12 @@ Words against_shared_load(double unequal, const char *where) {
                   100 * unequal, where, 100 * most_unequal));
 }
 
+Words against_recess(Test t) {
+  return when(
+      t.problem.tube() != nullptr && t.problem.settings().loading.tube->recess > 0,
+      "the specimen stands off a platen (Sleeve/Recess): what the platens press is no strength of it");
+}
+
 Words against_residual(Test t) {
   const double residual = t.results.energy_residual_relative();
   return when(residual > most_residual,
@@ -206,6 +212,7 @@ const std::vector<Reason> reasons{
      }},
     {peak | damage,
      [](Test t) { return against_bonds(t, !t.is_tension() && is_confined(t), CalibratedFigure::confined); }},
+    {peak | modulus | damage, against_recess},
     {peak, against_peak},
     {peak, against_readings_to_peak},
     {modulus, against_modulus},

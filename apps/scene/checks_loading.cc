@@ -130,6 +130,9 @@ void SceneCheck::tube() const {
            "Sleeve/Steel.");
   if (wall.metal->ultimate_strength > 0 && !loading.hardening_file.empty())
     refuse("Sleeve/Hardening file", "does not go with Sleeve/Ultimate strength. Allowed: one of both.");
+  if (wall.recess > 0 && wall.clearance == 0 && loading.stop_at_residual > 0 && !loading.staged())
+    refuse("Loading/Stop at residual",
+           "watches the stress of a specimen that Sleeve/Recess keeps off the platens. Allowed: 0.");
   if (!loading.hardening_file.empty()) read_hardening(loading.hardening_file, wall.metal->yield_strength);
 }
 

@@ -241,6 +241,7 @@ void declare_sleeve(Parameters &parameters, Loading &loading) {
   wrap.rest();
   for (const char *member : {"gap", "clearance"})
     of(member).only_if("Sleeve/Kind", passive);
+  of("recess").only_if("Sleeve/Kind", tube);
   of("thickness");
   of("young_modulus", "Modulus");
   for (const char *member : {"poisson_ratio", "density"})

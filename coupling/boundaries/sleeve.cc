@@ -88,10 +88,10 @@ Sleeve::Sleeve(const dem::Particles &particles, const dem::Shape &shape, double 
 
 Sleeve::Sleeve(const dem::Particles &particles, const dem::Shape &shape, const EndPlatens &ends,
                const SleeveSettings &settings)
-    : Sleeve(particles, shape, ends.planes().low + settings.clearance,
+    : Sleeve(particles, shape, ends.planes().low + (settings.recess > 0 ? 0 : settings.clearance),
              ends.planes().high - settings.clearance, settings) {
   ends_.emplace(ends);
-  if (top_turns()) solid_->prescribe_each(top_motion_);
+  if (top_turns() && held_above()) solid_->prescribe_each(top_motion_);
 }
 
 void Sleeve::build(const dem::Particles &particles) {
@@ -107,7 +107,7 @@ void Sleeve::build(const dem::Particles &particles) {
   solid_ = std::make_unique<fem::HyperelasticSolid>(tube_around(shape_, low_, high_, settings_), wall,
                                                     std::vector<int>{fem::inner_tag});
   contact_ = std::make_unique<ContactLayer>(particles, *solid_, settings_.contact);
-  if (on_platens()) hold_rims();
+  hold_rims();
   solid_->set_damping(settings_.mass_damping);
   limit_ = find_limit();
   const double gap = settings_.gap;
@@ -123,9 +123,10 @@ void Sleeve::hold_rims() {
   const std::array<bool, 3> fixed = {settings_.bonded_rims, settings_.bonded_rims, true};
   const std::vector<int> below = solid_->nodes_of(fem::low_end_tag),
                          above = solid_->nodes_of(fem::high_end_tag);
-  bottom_motion_ = solid_->prescribe(below, fixed);
-  top_motion_ = solid_->prescribe(above, fixed);
+  if (held_below()) bottom_motion_ = solid_->prescribe(below, fixed);
   bottom_rim_ = static_cast<std::size_t>(below.front());
+  if (!held_above()) return;
+  top_motion_ = solid_->prescribe(above, fixed);
   top_rim_ = static_cast<std::size_t>(above.front());
   top_rim_nodes_ = above;
   top_rim_places_.clear();
@@ -170,7 +171,7 @@ void Sleeve::drift(const Step &step, const Command &command) {
 }
 
 void Sleeve::finish(const Step &step) {
-  if (made_ == planned_ && ends_ && !on_platens()) require_clear_ends(step);
+  if (made_ == planned_ && ends_ && !held_above()) require_clear_ends(step);
   try {
     take_loads();
   } catch (const fem::InvertedElement &e) {
@@ -184,13 +185,15 @@ void Sleeve::finish(const Step &step) {
 void Sleeve::require_clear_ends(const Step &step) const {
   for (const auto &[tag, sense, plane] :
        {std::tuple{fem::low_end_tag, -1.0, low_ - settings_.clearance + ends_->low.closure()},
-        {fem::high_end_tag, 1.0, high_ + settings_.clearance - ends_->high.closure()}})
+        {fem::high_end_tag, 1.0, high_ + settings_.clearance - ends_->high.closure()}}) {
+    if (sense < 0 && held_below()) continue;
     for (const int node : solid_->nodes_of(tag))
       if (sense * (solid_->node_place(node).z - plane) > 0)
         throw NumericsStopped("step " + std::to_string(step.number + 1) +
                               ": a platen has come to the end of the tube, which "
                               "is loaded by the concrete alone; try a longer `sleeve.clearance` or a lower "
                               "`loading.target_strain`");
+  }
 }
 
 void Sleeve::add_energy(dem::EnergyLedger &energy) const {
@@ -216,9 +219,9 @@ fem::HyperelasticSolid &Sleeve::with_loads() const {
 
 double Sleeve::axial_force_beyond_pressure() const {
   const fem::HyperelasticSolid &solid = with_loads();
-  if (!on_platens()) return 0;
+  if (!held_below()) return 0;
   const double bottom = solid.prescribed_force(bottom_motion_)[2], // N, of the platens on the sleeve
-      top = solid.prescribed_force(top_motion_)[2];
+      top = held_above() ? solid.prescribed_force(top_motion_)[2] : 0;
   return 0.5 * (bottom - top) - pressure() * ring_;
 }
 
@@ -284,15 +287,14 @@ void Sleeve::begin_interval(double dt, const RimMotion &rims) {
 
 // Platens have already made the first step of the interval.
 void Sleeve::kick_into(double interval, double dt, const RimMotion &rims) {
-  if (!on_platens()) return solid_->half_kick(interval);
   const auto follow = [&](int number, std::size_t node, const Vector3 &velocity, const Vector3 &place) {
     const Vector3 &rim = solid_->displacement()[node];
     solid_->set_prescribed_velocity(number, (1 / interval) * (place + (interval - dt) * velocity - rim));
   };
-  follow(bottom_motion_, bottom_rim_, rims.bottom, rims.bottom_place);
-  if (top_turns())
+  if (held_below()) follow(bottom_motion_, bottom_rim_, rims.bottom, rims.bottom_place);
+  if (held_above() && top_turns())
     turn_top_rim(interval, dt, rims);
-  else
+  else if (held_above())
     follow(top_motion_, top_rim_, rims.top, rims.top_place);
   solid_->half_kick(interval);
 }

@@ -52,6 +52,9 @@ struct SleeveSettings {
   double gap = 0;                     // m, between its inner face and the specimen
   double clearance =
       0; // m, by which each end stands off its platen: it is free then; 0: platens hold the ends
+  // m, by which each end of the specimen stands off its platen, so that the sleeve alone is loaded. With a
+  // clearance too, that is of the upper ends and this of the lower ones: the specimen is pushed out.
+  double recess = 0;
   double stiffness =
       0; // of its contacts, multiple of the mean bond's; 0: computed from a cell's pressure, else 1
   double seat_layer = 1; // mean radii: spheres up to this depth are seated flush with its inner face
@@ -110,6 +113,9 @@ void SleeveSettings::describe(Visitor &&v, Self &p) {
     "By which each end of a tube stands off its platen, so that the concrete alone is loaded; 0: platens "
     "press "
     "tube and concrete together.");
+  v("recess", p.recess, "m", at_least(0),
+    "By which each end of the specimen stands off its platen, so that the tube alone is loaded; with a "
+    "clearance too the specimen is pushed out: it stands off the lower platen, the tube off the upper one.");
   v("bond_strength", p.contact.bond.strength, "Pa", at_least(0),
     "Cohesion in shear of the spheres that lie flush with it, until it breaks; 0: they only rub.");
   v("bond_tension", p.contact.bond.tension, "Pa", above(0),
@@ -207,7 +213,8 @@ public:
   bool yields() const { return settings_.metal.has_value(); }
   bool wraps() const { return settings_.wrap.has_value(); }
   bool is_rubber() const { return !yields() && !wraps(); }
-  bool on_platens() const { return settings_.clearance == 0; }
+  bool held_below() const { return settings_.clearance == 0 || settings_.recess > 0; } // by the platen
+  bool held_above() const { return settings_.clearance == 0; }
   // Of the enclosed volume, positive in compression.
   double volumetric_strain() const { return 1 - inner_volume() / volume_at_start_; }
   // N: force of the platens on its ends (the mean of both) in excess of the pressure in the rubber.

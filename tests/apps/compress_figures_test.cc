@@ -118,6 +118,21 @@ TEST_F(Figures, of_a_wrap_are_those_of_the_row_before_it_tears) {
   EXPECT_EQ(whole["wrap_torn_energy_j"], 0);
 }
 
+// Its specimen stands off the platens: no strength of it, but loads, and an energy balance.
+TEST_F(Figures, of_a_tube_that_is_loaded_alone_are_loads) {
+  const nlohmann::json s =
+      crush("alone", {"Loading/Confinement = sleeve", "Sleeve/Kind = tube", "Sleeve/Steel = S235",
+                      "Sleeve/Thickness = 0.5 mm", "Sleeve/Recess = 1 mm", "Sleeve/Bond strength = 50 MPa",
+                      "Loading/Stop at residual = 0", "Loading/Target strain = 0.0006", "Expect/pattern ="});
+  expect_reason(s, of_the_peak, "the specimen stands off a platen (Sleeve/Recess)");
+  expect_reason(s, moduli, "the specimen stands off a platen (Sleeve/Recess)");
+  EXPECT_GT(s["largest_load_n"].get<double>(), 2000);
+  EXPECT_EQ(s["largest_load_n"], s["tube_load_at_largest_n"]);
+  EXPECT_LT(s["energy_residual_relative"].get<double>(), 0.01);
+  EXPECT_EQ(s["tube_bonded_share"], column("alone", "tube_bonded_share").back());
+  EXPECT_GT(s["tube_bonded_share"], 0.5);
+}
+
 TEST_F(Figures, an_expectation_of_one_that_is_none_says_why) {
   crush("run", {"Loading/Target strain = 0.0002", "Expect/strength_pa = 1 Pa ... 1 GPa"}, {}, 1);
   EXPECT_TRUE(contains(outcome_.error, "strength_pa was not measured (no peak was reached"));

@@ -30,6 +30,15 @@ void PrintTo(const Stopped &of, std::ostream *out) {
 
 constexpr int none_breaks = -1;
 
+// Of a tube that is longer than the specimen, and shorter above with a clearance.
+Words pushed_out(const Words &more) {
+  Words all{"Loading/Confinement = sleeve", "Sleeve/Kind = tube",           "Sleeve/Steel = S235",
+            "Sleeve/Thickness = 0.5 mm",    "Sleeve/Recess = 1 mm",         "Sleeve/Bond strength = 3 MPa",
+            "Sleeve/Bond slip = 5 um",      "Loading/Stop at residual = 0", "Loading/Target strain = 0.002"};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
 // Every set-up of the library, tests/coupling/conformance_test.cc stops; here are those in which a run
 // remembers something beside: its peak and turns, frames of more series, how it began.
 const std::vector<Stopped> stops{
@@ -87,6 +96,25 @@ const std::vector<Stopped> stops{
      {"body_energy_j", "wrap_hoop_strain"},
      {},
      {{"wrap_torn_energy_j", 1e-9, 1e9}, {"largest_load_n", 1, 1e9}}},
+    // Its bond breaks while both run: the upper platen presses the specimen, the lower one the tube.
+    {"pushed_out",
+     "crushed.prm",
+     pushed_out({"Sleeve/Clearance = 1 mm"}),
+     {20, 60},
+     none_breaks,
+     {"sleeve.pvd"},
+     {"friction_work_j"},
+     {"largest_load_n"},
+     {{"tube_bonded_share", -1, 0.5}}},
+    {"tube_alone",
+     "crushed.prm",
+     pushed_out({}),
+     {20, 60},
+     none_breaks,
+     {"sleeve.pvd"},
+     {"friction_work_j", "tube_load_n", "plastic_work_j"},
+     {"largest_load_n", "energy_residual_relative"},
+     {{"tube_bonded_share", -1, 0.5}}},
     // In the hydrostatic stage, and after the peak; the platen turns the rim of the sleeve.
     {"seat_and_sleeve",
      "crushed.prm",
