@@ -249,10 +249,10 @@ void declare_sleeve(Parameters &parameters, Loading &loading) {
   of("bonded_rims", "Rims");
   for (const char *member : {"elements_around", "elements_through", "friction"})
     of(member);
-  of("bond_strength").only_if("Sleeve/Kind", tube);
+  of("bond_strength").only_if("Sleeve/Kind", passive);
   for (const char *member : {"bond_tension", "bond_slip"})
     of(member)
-        .only_if("Sleeve/Kind", tube)
+        .only_if("Sleeve/Kind", passive)
         .only_if([](const Scene &s) { return s.loading.cell->sleeve->contact.bond.strength > 0; },
                  "Sleeve/Bond strength is 0");
   of("stiffness");

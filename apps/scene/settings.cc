@@ -23,6 +23,13 @@ coupling::PlatenSettings platen_settings(const Scene &scene) {
   return all;
 }
 
+// Entries that do not apply to a kind of sleeve do not act on it.
+void leave_out_other_kinds(coupling::SleeveSettings &sleeve, SleeveKind kind) {
+  if (kind != SleeveKind::tube) sleeve.metal.reset(), sleeve.recess = 0;
+  if (kind != SleeveKind::wrap) sleeve.wrap.reset();
+  if (kind == SleeveKind::rubber) sleeve.contact.bond = {}, sleeve.gap = sleeve.clearance = 0;
+}
+
 } // namespace
 
 dem::Shape specimen_shape(const Scene &scene) {
@@ -79,8 +86,7 @@ coupling::PlatenTestSettings settings_without_files(const Scene &scene) {
   to.loading.wall = scene.loading.walled();
   to.loading.cell->alone = scene.loading.hydrostatic();
   coupling::SleeveSettings &sleeve = *to.loading.cell->sleeve;
-  if (scene.loading.sleeve_kind != SleeveKind::tube) sleeve.metal.reset();
-  if (scene.loading.sleeve_kind != SleeveKind::wrap) sleeve.wrap.reset();
+  leave_out_other_kinds(sleeve, scene.loading.sleeve_kind);
   if (scene.loading.tubed()) to.loading.tube = sleeve;
   if (!scene.loading.sleeved()) to.loading.cell->sleeve.reset();
   if (!scene.loading.confined()) to.loading.cell.reset();

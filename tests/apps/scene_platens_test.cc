@@ -86,6 +86,8 @@ TEST(ScenePlatens, a_tube_arrives_with_its_steel) {
   EXPECT_EQ(settings({"Sleeve/Yield strength = 300 MPa"}).tube->metal->yield_strength, 300e6);
   EXPECT_EQ(settings({"Sleeve/Rims = bonded"}).tube->bonded_rims, true);
   EXPECT_EQ(wall.contact.bond.strength, 0);
+  EXPECT_EQ(wall.recess, 0);
+  EXPECT_EQ(settings({"Sleeve/Recess = 2 mm"}).tube->recess, 2e-3);
   const coupling::SurfaceBond bond = settings(adheres).tube->contact.bond;
   EXPECT_EQ(bond.strength, 0.5e6);
   EXPECT_EQ(bond.slip, 1e-4);
@@ -95,6 +97,14 @@ TEST(ScenePlatens, a_tube_arrives_with_its_steel) {
                                    "Loading/Confinement = sleeve", "Loading/Confining pressure = 1 MPa"}))
           .loading;
   EXPECT_FALSE(rubber.tube || rubber.cell->sleeve->metal);
+  // What is noted to have no effect has none.
+  const coupling::LoadingSettings noted =
+      problem_settings(
+          scene_with({"Specimen/Shape = cylinder", "Specimen/Radius = 50 mm", "Loading/Confinement = sleeve",
+                      "Loading/Confining pressure = 1 MPa", "Sleeve/Gap = 1 mm", "Sleeve/Clearance = 1 mm",
+                      "Sleeve/Recess = 1 mm", "Sleeve/Bond strength = 1 MPa", "Sleeve/Bond slip = 1 mm"}))
+          .loading;
+  expect_same(*noted.cell->sleeve, *rubber.cell->sleeve);
 }
 
 TEST(ScenePlatens, the_hardening_of_a_tube_is_read_from_a_file) {
