@@ -15,7 +15,7 @@ from .errors import InputError, MissingError, NumericsError, OutputError, Platen
 
 # Loaded when asked for: numpy takes a tenth of a second, the compiled part half of one; results are read without the latter.
 _FROM = {**dict.fromkeys(("Frames", "Run", "Study", "Table", "read_table", "runs"), "results"),
-         **dict.fromkeys(("Experiment", "scenes", "version"), "experiment"), "Sweep": "sweep"}
+         **dict.fromkeys(("Experiment", "scenes", "version"), "experiment"), "Sweep": "sweep", "wall_rings": "wall"}
 
 
 def __getattr__(name):
@@ -34,4 +34,4 @@ def __dir__():
 
 
 __all__ = ["Experiment", "Frames", "InputError", "MissingError", "NumericsError", "OutputError", "PlatenError", "Run", "Study", "Sweep",
-           "Table", "read_table", "runs", "scenes", "version"]
+           "Table", "read_table", "runs", "scenes", "version", "wall_rings"]
