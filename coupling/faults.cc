@@ -37,7 +37,7 @@ public:
     if (shape_ != nullptr && shape_->notch.is_there()) notch(*shape_);
     if (!l_.unload_at.empty()) cycles();
     lateral();
-    if (l_.cell) cell(*l_.cell);
+    if (l_.cell) cell();
     if (l_.sleeve() != nullptr) {
       const std::vector<Fault> more = sleeve_faults(s_, shape_, has_servo());
       found_.insert(found_.end(), more.begin(), more.end());
@@ -237,7 +237,7 @@ private:
     refuse_if(l_.wall && l_.cell, "loading.cell", "does not go with uniaxial strain. Allowed: none.");
   }
 
-  void cell(const CellSettings &cell) {
+  void cell() {
     refuse_if(!bonded(), "loading.cell",
               "needs bonds: they tell the specimen from what has come loose. Allowed: none.");
     refuse_if(l_.servo, "loading.servo",
