@@ -7,6 +7,7 @@
 
 #include "base/describe.h"
 #include "base/pi.h"
+#include "base/portable.h"
 #include "fem/materials/fibres.h"
 
 namespace platen::coupling {
@@ -23,7 +24,7 @@ struct WrapSettings {
     const double more = 1.0 / layers, lapped = overlap;
     const auto layout = [=](const Vector3 &middle) {
       const double r = std::hypot(middle.x, middle.y);
-      double along = std::atan2(middle.y, middle.x) * radius; // m, of the middle on the hoop
+      double along = portable::atan2(middle.y, middle.x) * radius; // m, of the middle on the hoop
       if (along < 0) along += 2 * pi * radius;
       const double covered = std::min(lapped, along + 0.5 * width) - (along - 0.5 * width);
       return fem::FibreCell{{Vector3{-middle.y / r, middle.x / r, 0}, Vector3{0, 0, 1}},

@@ -71,6 +71,7 @@ def draw(answers, bare, path):
         axes.plot(100 * a.strain, a.stress / 1e6, style, color=colour, label=f"rupture at {100 * case[2]:.1f} %" if case[1] == 0.4 else None)
         axes.plot(100 * a.lateral, a.stress / 1e6, style, color=colour)
     axes.set(xlabel="Lateral (left) and axial strain, %", ylabel="Axial stress, MPa", ylim=(0, None), xlim=(-2, None))
+    axes.set_title("$f_l/f_{co}$ = .1 dotted, .2 dashed, .4 full", loc="left")
     axes.axvline(0, color="black", lw=0.8)
     axes.legend()
     figure.savefig(path, dpi=150)

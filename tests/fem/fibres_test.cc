@@ -106,6 +106,14 @@ TEST(fibres, forces_and_stiffness_are_derivatives_of_the_energy) {
   }
 }
 
+// Stiffness grows by that of the fibres over at most the stiffest mode of the resin.
+TEST(fibres, the_stable_step_knows_of_them) {
+  HyperelasticSolid with(distorted_grid(), laminate(200e9, 70e9, never, oblique)),
+      without(distorted_grid(), {density, resin});
+  const double stiffer = 1 + 1.5 * 200e9 / (3 * resin.shear_modulus + resin.bulk_modulus); // at least
+  EXPECT_LT(with.stable_step(), without.stable_step() / std::sqrt(stiffer / 2));
+}
+
 TEST(fibres, turning_the_solid_turns_its_forces) {
   HyperelasticSolid still(distorted_grid(), laminate(200e9, 70e9, never, oblique)), turning = still;
   const std::vector<Vector3> field = random_field(still.mesh().nodes.size(), 1e-4, 6);
@@ -207,6 +215,9 @@ TEST(fibres, what_tears_gives_its_energy) {
   deform(bare, f);
   const double rest = Fibres::rest_of_torn * bare.internal_energy();
   EXPECT_NEAR(solid.torn_energy() / (stored - rest), 1, 1e-7);
+  solid.update_forces();
+  EXPECT_NEAR(solid.cell_stresses()[0].cauchy[8] / bare.cell_stresses()[0].cauchy[8], Fibres::rest_of_torn,
+              1e-9);
   EXPECT_NEAR(stored - bare.internal_energy(), 0.5 * 97e9 * rupture * rupture * 1e-6, 1e-6 * stored);
   pulled(2 * rupture);
   EXPECT_LT(solid.internal_energy(), 0.01 * stored);
