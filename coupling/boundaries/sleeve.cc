@@ -182,18 +182,17 @@ void Sleeve::finish(const Step &step) {
   }
 }
 
+// A lower end that is held goes with its platen, in front of this plane.
 void Sleeve::require_clear_ends(const Step &step) const {
   for (const auto &[tag, sense, plane] :
        {std::tuple{fem::low_end_tag, -1.0, low_ - settings_.clearance + ends_->low.closure()},
-        {fem::high_end_tag, 1.0, high_ + settings_.clearance - ends_->high.closure()}}) {
-    if (sense < 0 && held_below()) continue;
+        {fem::high_end_tag, 1.0, high_ + settings_.clearance - ends_->high.closure()}})
     for (const int node : solid_->nodes_of(tag))
       if (sense * (solid_->node_place(node).z - plane) > 0)
         throw NumericsStopped("step " + std::to_string(step.number + 1) +
                               ": a platen has come to the end of the tube, which "
                               "is loaded by the concrete alone; try a longer `sleeve.clearance` or a lower "
                               "`loading.target_strain`");
-  }
 }
 
 void Sleeve::add_energy(dem::EnergyLedger &energy) const {

@@ -121,7 +121,7 @@ void SleeveSettings::describe(Visitor &&v, Self &p) {
   v("bond_tension", p.contact.bond.tension, "Pa", above(0),
     "The same in tension; as in shear where not given.");
   v("bond_slip", p.contact.bond.slip, "m", at_least(0),
-    "Slip over which the cohesion falls to nothing, in a straight line; 0: it breaks where it first slides.");
+    "Slip, or opening, over which the bond falls to nothing in a straight line; 0: it breaks at once.");
   v("stiffness", p.stiffness, "1", between(0, 1000),
     "Penalty stiffness of grains on it, as a multiple of the mean bond's; 0: that of the bond for a tube; "
     "for "

@@ -248,7 +248,8 @@ private:
                            RowForce &result);
   void tangential_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   dem::CohesiveFriction bond_of(double radius) const;
-  void let_go(std::size_t row, const Kinematics &motion, double dt, RowForce &result) const;
+  void pull(double left, Kinematics &motion) const;
+  void weaken(std::size_t row, Kinematics &motion, double dt, RowForce &result);
   void seat_moment(std::size_t row, const Kinematics &motion, double dt, RowForce &result);
   void keep_history(std::size_t row, RowForce &result);
   void push_particle(dem::Particles &particles, std::size_t k) const;

@@ -31,6 +31,7 @@ struct ContactLayer::Kinematics {
   double k_n = 0, c_n = 0;  // N/m, N s/m
   double pressing = 0;      // N, of the spring
   double stored = 0;        // J, in it
+  double least = 0;         // N, of the normal force: negative where a bond pulls
   double radius = 0;        // m
 };
 
@@ -207,8 +208,13 @@ void ContactLayer::row_force(const dem::Particles &particles, const fem::LoadedS
   if (parameters_.hertz && particles.has_rotation()) motion.spin = 0.5 * (surface.spin + dot(spin, n));
   press(result.at, particles.mass[i], motion);
   if (parameters_.hertz && result.active) result.depth = -motion.gap / motion.radius;
+  if (bonded(row)) {
+    result.bond = bond_of(motion.radius).left_at(motion.gap, (*bond_)[row], motion.k_n);
+    pull(result.bond, motion);
+  }
   normal_force(row, motion, dt, result);
   if (spring_ != nullptr) tangential_force(row, motion, dt, result);
+  if (bonded(row) && result.bond < (*bond_)[row]) weaken(row, motion, dt, result);
   if (seat_spring_ != nullptr && seated_[row]) {
     const Vector3 w = spin - face_rotation(body.surface(), result.at.face);
     motion.rocking = w - dot(w, n) * n;
@@ -239,7 +245,7 @@ void ContactLayer::press(const SurfacePoint &at, double mass, Kinematics &motion
 void ContactLayer::normal_force(std::size_t row, const Kinematics &motion, double dt, RowForce &result) {
   if (result.active) {
     result.normal_force = motion.pressing - motion.c_n * motion.opening_speed;
-    if (!tied(row) && !bonded(row)) result.normal_force = std::max(0.0, result.normal_force);
+    if (!tied(row)) result.normal_force = std::max(motion.least, result.normal_force);
     result.dashpot = result.normal_force - motion.pressing;
     result.elastic = motion.stored;
   }
@@ -279,7 +285,6 @@ void ContactLayer::tangential_force(std::size_t row, const Kinematics &motion, d
   const double pressing = tied(row) ? 1 : (result.active ? result.normal_force : 0);
   const dem::FrictionLaw friction = dem::friction_law(parameters_);
   const CoulombFriction *constant = tied(row) ? &glue : std::get_if<CoulombFriction>(&friction);
-  result.bond = bonded(row) ? (*bond_)[row] : 0;
   const CoulombFriction::Result t =
       bonded(row)           ? bond_of(motion.radius)(state, result.bond, stretch, pressing, k_t)
       : constant != nullptr ? (*constant)(state, stretch, pressing, k_t)
@@ -289,19 +294,32 @@ void ContactLayer::tangential_force(std::size_t row, const Kinematics &motion, d
   result.slip = t.slip;
   result.friction_loss += t.dissipated;
   result.elastic += 0.5 * norm_squared(t.force) / k_t;
-  if (bonded(row) && !(result.bond > 0) && result.normal_force < 0) let_go(row, motion, dt, result);
 }
 
-// A bond that has broken pulls no longer. What its spring held is lost as friction: the leapfrog saw the
-// previous force over half of the opening.
-void ContactLayer::let_go(std::size_t row, const Kinematics &motion, double dt, RowForce &result) const {
-  result.active = motion.gap < 0;
-  result.normal_force = 0;
-  result.dashpot = result.active ? -motion.pressing : 0;
-  result.damping_loss = -0.5 * (dashpot_[row] + result.dashpot) * motion.opening_speed * dt;
-  if (result.active) return;
-  result.elastic -= motion.stored;
-  result.friction_loss += 0.5 * motion.k_n * motion.gap * (motion.gap - motion.opening_speed * dt);
+// With this part of the bond left.
+void ContactLayer::pull(double left, Kinematics &motion) const {
+  const dem::CohesiveFriction bond = bond_of(motion.radius);
+  motion.least = -left * bond.parameters.tension;
+  if (!(motion.gap > 0)) return;
+  const double stiffness = bond.stiffness(left, motion.k_n);
+  motion.pressing = -stiffness * motion.gap;
+  motion.stored = 0.5 * stiffness * motion.gap * motion.gap;
+}
+
+// A bond that has become weaker in this step, by its opening or its slip. The leapfrog saw the mean of its
+// forces before and after; what its spring lost beside counts as friction.
+void ContactLayer::weaken(std::size_t row, Kinematics &motion, double dt, RowForce &result) {
+  const double sheared = result.elastic - motion.stored; // J
+  pull(result.bond, motion);
+  result.active = motion.gap < 0 || result.bond > 0;
+  result.dashpot = 0;
+  normal_force(row, motion, dt, result);
+  result.elastic += sheared;
+  if (!(motion.gap > 0)) return;
+  const double way = motion.opening_speed * dt, gap = motion.gap - way; // m, the latter before the step
+  const double stiffness = gap > 0 ? bond_of(motion.radius).stiffness((*bond_)[row], motion.k_n) : motion.k_n;
+  result.friction_loss +=
+      0.5 * stiffness * gap * gap - motion.stored + 0.5 * (stiffness * gap - motion.pressing) * way;
 }
 
 dem::CohesiveFriction ContactLayer::bond_of(double radius) const {

@@ -121,8 +121,11 @@ TEST(recessed_tube, meets_the_platens_where_its_recess_has_closed) {
   const double recess = 2e-6;
   PlatenTest test(packed_cylinder(), recessed(recess));
   const int seats = test.top().layer().seats();
-  PlatenTestSettings flush = recessed(0);
-  EXPECT_EQ(PlatenTest(packed_cylinder(), flush).top().layer().seats(), seats);
+  for (const double other : {0.0, 0.5e-3, 2e-3}) {
+    const PlatenTest flush(packed_cylinder(), recessed(other));
+    EXPECT_EQ(flush.top().layer().seats(), seats);
+    EXPECT_EQ(flush.bottom().layer().seats(), test.bottom().layer().seats());
+  }
   EXPECT_GT(seats, 20);
   while (!(test.stress_top() > 0))
     test.step();
@@ -135,6 +138,8 @@ TEST(recessed_tube, with_a_clearance_too_its_specimen_is_pushed_out) {
   const auto pushed = [](double friction, const SurfaceBond &bond, double closure) {
     PlatenTestSettings s = recessed(0.5e-3, friction);
     s.loading.tube->clearance = 1e-3, s.loading.tube->contact.bond = bond;
+    s.loading.rate = 0.02; // or its mass bears some of the load
+    s.model.local_damping = 0.7;
     PlatenTest test(packed_cylinder(), s);
     double largest = 0; // N
     while (test.closure_strain() * test.shape().height < closure) {
@@ -147,13 +152,13 @@ TEST(recessed_tube, with_a_clearance_too_its_specimen_is_pushed_out) {
                       test.tube()->layer().bonded_share()};
   };
   const double area = 2 * pi * 11e-3 * (26e-3 + 0.5e-3 - 1e-3); // m^2, of the tube's inner face
-  const auto held = pushed(0, {0.55e6, not_given, 1e-3}, 40e-6);
+  const auto held = pushed(0, {0.55e6, not_given, 1e-3}, 12e-6);
   EXPECT_NEAR(held[0] / (0.55e6 * area), 1, 0.04);
   EXPECT_NEAR(held[2] / held[1], 1, 0.05); // the platen below bears it all, on the tube
   EXPECT_EQ(held[3], 1);
-  const auto slides = pushed(0, {}, 40e-6);
+  const auto slides = pushed(0, {}, 4e-6);
   EXPECT_LT(slides[0], 0.05 * held[0]); // it has mass
-  const auto lost = pushed(0, {0.55e6, not_given, 2e-6}, 40e-6);
+  const auto lost = pushed(0, {0.55e6, not_given, 2e-6}, 12e-6);
   EXPECT_EQ(lost[3], 0);
   EXPECT_LT(std::abs(lost[1]), 0.05 * held[0]);
 }
