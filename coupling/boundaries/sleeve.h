@@ -186,7 +186,7 @@ public:
     double axial = 0, hoop = 0, force = 0; // Pa, Pa, N: of its section, compression positive
     double plastic_strain = 0, yielded = 0;
     double bulge = 0;                      // m, largest displacement of a node outwards
-    double hoop_strain = 0, most_hoop = 0; // 1, of a wrap: mean of that half, and of any element not torn
+    double hoop_strain = 0, most_hoop = 0; // 1, of a wrap that has not torn: mean of that half, largest
     double torn = 0;                       // 1, fraction of the elements
   };
   WallState wall_state() const;

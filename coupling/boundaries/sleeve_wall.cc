@@ -39,6 +39,7 @@ Sleeve::WallState Sleeve::wall_state() const {
   const std::vector<double> strains = solid.plastic_strains(), hoops = solid.fibre_strains(),
                             shares = solid.fibre_shares();
   WallState state;
+  double whole = 0;                            // m^3, of these what has not torn
   double volume = 0, low = high_, high = low_; // m^3, m: of the cells in the middle half
   for (std::size_t c = 0; c < stresses.size(); ++c) {
     const fem::Corners reference = solid.mesh().gather(c, solid.mesh().nodes);
@@ -52,7 +53,7 @@ Sleeve::WallState Sleeve::wall_state() const {
     const fem::Tensor &s = stresses[c].cauchy;
     state.hoop += own * (tx * tx * s[0] + 2 * tx * ty * s[1] + ty * ty * s[4]);
     state.axial -= own * s[8];
-    if (wraps()) state.hoop_strain += own * hoops[c];
+    if (wraps() && shares[c] > 0) state.hoop_strain += own * hoops[c], whole += own;
     volume += own;
     for (const int node : solid.mesh().cell_nodes[c])
       low = std::min(low, solid.node_place(node).z), high = std::max(high, solid.node_place(node).z);
@@ -64,7 +65,7 @@ Sleeve::WallState Sleeve::wall_state() const {
   }
   if (volume > 0) {
     state.force = state.axial / (high - low);
-    state.axial /= volume, state.hoop /= volume, state.hoop_strain /= volume;
+    state.axial /= volume, state.hoop /= volume;
   }
   if (!strains.empty()) {
     state.yielded /= static_cast<double>(strains.size());
@@ -73,7 +74,10 @@ Sleeve::WallState Sleeve::wall_state() const {
   }
   for (std::size_t c = 0; c < shares.size(); ++c)
     if (shares[c] > 0 && !(hoops[c] <= state.most_hoop)) state.most_hoop = hoops[c];
-  if (wraps()) state.torn = static_cast<double>(torn_elements()) / static_cast<double>(shares.size());
+  if (wraps()) {
+    state.hoop_strain = whole > 0 ? state.hoop_strain / whole : not_given;
+    state.torn = static_cast<double>(torn_elements()) / static_cast<double>(shares.size());
+  }
   return state;
 }
 

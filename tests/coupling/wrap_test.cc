@@ -72,6 +72,7 @@ TEST(wrap, it_tears_at_its_rupture_strain_and_lets_go) {
   EXPECT_EQ(now.torn, static_cast<double>(test.tube()->torn_elements()) / static_cast<double>(shares.size()));
   EXPECT_LT(test.tube()->specimen_pressure(), 0.5 * pressure);
   EXPECT_LT(now.most_hoop, rupture);
+  EXPECT_LT(now.hoop_strain, now.most_hoop);
   EXPECT_GT(test.energy().fracture, 0);
   EXPECT_LT(std::abs(test.energy().residual()), 1e-3 * test.energy().boundary);
 }
