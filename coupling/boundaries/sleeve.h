@@ -16,28 +16,12 @@
 #include <vector>
 
 #include "coupling/boundaries/platen.h"
+#include "coupling/metal_settings.h"
 #include "coupling/wrap_settings.h"
 #include "dem/packing/specimen.h"
 #include "fem/hyperelastic_solid.h"
 
 namespace platen::coupling {
-
-// A wall of metal that yields (fem/materials/j2_plasticity.h).
-struct MetalSettings {
-  double yield_strength = not_given; // Pa
-  // Pa; not given: no hardening but that below, else that of structural steel (structural_steel.h).
-  double ultimate_strength = not_given;
-  double saturation = 0, saturation_rate = 0; // Pa, 1: of Voce's part
-  // Flow stress over plastic strain, after the yield strength; instead of the ultimate strength.
-  std::vector<fem::Hardening::Point> points;
-
-  // Throws std::invalid_argument where it is no hardening.
-  fem::Hardening hardening(double young_modulus) const;
-
-  static constexpr const char *name = "sleeve.metal";
-  template <class Visitor, class Self>
-  static void describe(Visitor &&v, Self &p);
-};
 
 struct SleeveSettings {
   double thickness = 3e-3;       // m
@@ -78,17 +62,6 @@ struct SleeveSettings {
   template <class Visitor, class Self>
   static void describe(Visitor &&v, Self &p);
 };
-
-template <class Visitor, class Self>
-void MetalSettings::describe(Visitor &&v, Self &p) {
-  v("yield_strength", p.yield_strength, "Pa", above(0), "Of a wall of metal.");
-  v("ultimate_strength", p.ultimate_strength, "Pa", above(0),
-    "Of structural steel, in tension: it hardens by the lines of Yun and Gardner 2017; not given: the flow "
-    "stress stays what it is at yield.");
-  v("saturation", p.saturation, "Pa", at_least(0), "What the flow stress gains at most by Voce's law.");
-  v("saturation_rate", p.saturation_rate, "1", at_least(0),
-    "Of Voce's law: gain = saturation (1 - exp(-rate x plastic strain)).");
-}
 
 template <class Visitor, class Self>
 void SleeveSettings::describe(Visitor &&v, Self &p) {
