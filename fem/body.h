@@ -10,9 +10,9 @@
 
 namespace platen::fem {
 
-// Energies of a body and energy exchanged since the start (J): kinetic + strain + dissipated + rubbed +
-// unbalanced - load_work - clamp_work is constant. A rigid body without a seat keeps no energy balance: the
-// machine does the work of its loads.
+// Energies of a body and energy exchanged since the start (J): kinetic + strain + dissipated + plastic +
+// rubbed + unbalanced - load_work - clamp_work is constant. A rigid body without a seat keeps no energy
+// balance: the machine does the work of its loads.
 struct EnergyBalance {
   // Explicit: product of velocities half a step before and after, for which the balance is exact.
   double kinetic = 0;
@@ -20,6 +20,7 @@ struct EnergyBalance {
   double load_work = 0;  // by loads on the surface
   double clamp_work = 0; // by the machine
   double dissipated = 0; // by damping
+  double plastic = 0;    // lost to yielding
   double rubbed = 0;     // by friction of a seat
   // Quasi-static: work of the loads on the deformation less the strain energy, of either sign. It arises
   // because the body lags behind its loads.

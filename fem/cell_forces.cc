@@ -3,26 +3,19 @@
 // width of processors; the program chooses one when it starts, with the same bits from each (no contraction).
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 
 #include "fem/hyperelastic_cell.h"
-#include "fem/materials/logarithmic_strain.h"
+#include "fem/points.h"
 #include "fem/widths.h"
 
 namespace platen::fem {
 namespace {
-
-typedef double Points __attribute__((vector_size(64)));
 
 struct TensorOfPoints {
   Points of[9];
   PLATEN_INTO_CALLER Points &operator[](int k) { return of[k]; }
   PLATEN_INTO_CALLER const Points &operator[](int k) const { return of[k]; }
 };
-
-PLATEN_INTO_CALLER void read(const double *from, Points &to) {
-  std::memcpy(&to, from, sizeof to);
-}
 
 PLATEN_INTO_CALLER void deformation_gradient(const ReferenceCell &cell, const Corners &displacement,
                                              TensorOfPoints &f) {

@@ -128,7 +128,8 @@ double von_mises(const Stress &s) {
   return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
-std::vector<Stress> cell_stress(const ElasticModel &model, const std::vector<Vector3> &displacement) {
+std::vector<Stress> cell_stress(const ElasticModel &model, const std::vector<Vector3> &displacement,
+                                const std::vector<Stress> &plastic) {
   std::vector<Stress> result(model.cell_material.size()), local;
   const NoCellReuse same_for_any_threads;
   const dealii::QGauss<3> gauss(static_cast<unsigned int>(model.degree));
@@ -146,11 +147,13 @@ std::vector<Stress> cell_stress(const ElasticModel &model, const std::vector<Vec
     }
     for (double &s : result[number])
       s /= volume;
+    if (!plastic.empty()) add(result[number], -1, plastic[number]);
   }
   return result;
 }
 
-std::vector<Stress> nodal_stress(const ElasticModel &model, const std::vector<Vector3> &displacement) {
+std::vector<Stress> nodal_stress(const ElasticModel &model, const std::vector<Vector3> &displacement,
+                                 const std::vector<Stress> &plastic) {
   const std::size_t n = nodes_per_cell(model);
   const NoCellReuse same_for_any_threads;
   const dealii::QGauss<3> gauss(static_cast<unsigned int>(model.degree));
@@ -167,11 +170,14 @@ std::vector<Stress> nodal_stress(const ElasticModel &model, const std::vector<Ve
           factor[a * gauss.size() + q] *= 0.5 * (1 + sign * std::sqrt(3.0) * x);
         }
   std::map<std::pair<int, int>, std::pair<Stress, int>> sums; // by node and material
-  std::vector<Stress> result(model.cell_nodes.size()), local;
+  std::vector<Stress> result(model.cell_nodes.size()), local, means;
+  if (!plastic.empty()) means = cell_stress(model, displacement, plastic);
   for (const auto &cell : model.numbers->active_cell_iterators()) {
     values.reinit(cell);
     const std::size_t number = cell->active_cell_index();
     stresses(model, values, number, displacement, local);
+    if (!plastic.empty() && model.materials[cell->material_id()].hardening)
+      local.assign(gauss.size(), means[number]);
     for (std::size_t a = 0; a < n; ++a) {
       auto &[sum, count] = sums[{model.cell_nodes[n * number + a], model.cell_material[number]}];
       for (unsigned int q = 0; q < gauss.size(); ++q)

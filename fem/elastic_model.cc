@@ -94,6 +94,56 @@ void integrate_cell(const dealii::FEValues<3> &values, const Lame &c, std::vecto
   }
 }
 
+// Adds the stiffness of a cell's volume whose change is projected onto the polynomials of one degree less, in
+// the cell's own coordinates: its mean (Nagtegaal, Parks, Rice 1974), or a linear change.
+void add_projected_volume(const dealii::FEValues<3> &values, int degree, double bulk_modulus,
+                          std::vector<double> &blocks) {
+  const std::size_t n = values.dofs_per_cell, points = values.n_quadrature_points;
+  std::vector<std::vector<double>> modes; // orthonormal over the cell
+  std::vector<dealii::Tensor<1, 3>> of_nodes(n);
+  for (unsigned int m = 0; m < (degree == 1 ? 1u : 4u); ++m) {
+    std::vector<double> mode(points, 1.0);
+    if (m > 0)
+      for (unsigned int q = 0; q < points; ++q)
+        mode[q] = values.get_quadrature().point(q)[m - 1];
+    const auto integral = [&](const std::vector<double> &other) {
+      double sum = 0;
+      for (unsigned int q = 0; q < points; ++q)
+        sum += values.JxW(q) * mode[q] * other[q];
+      return sum;
+    };
+    for (const std::vector<double> &other : modes) {
+      const double share = integral(other);
+      for (std::size_t q = 0; q < points; ++q)
+        mode[q] -= share * other[q];
+    }
+    const double length = std::sqrt(integral(mode));
+    for (double &value : mode)
+      value /= length;
+    modes.push_back(mode);
+    for (unsigned int a = 0; a < n; ++a) {
+      of_nodes[a] = {};
+      for (unsigned int q = 0; q < points; ++q)
+        of_nodes[a] += values.JxW(q) * mode[q] * values.shape_grad(a, q);
+    }
+    for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t b = 0; b < n; ++b)
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            blocks[9 * (a * n + b) + 3 * i + j] += bulk_modulus * (of_nodes[a][i] * of_nodes[b][j]);
+  }
+}
+
+// Of a material that yields: the flow leaves the volume as it is, and cells whose volume is held at all
+// points would lock.
+void integrate_cell(const dealii::FEValues<3> &values, int degree, const Material &material,
+                    std::vector<double> &blocks) {
+  const Lame c = lame(material);
+  if (!material.hardening) return integrate_cell(values, c, blocks);
+  integrate_cell(values, {-2.0 / 3 * c.mu, c.mu}, blocks);
+  add_projected_volume(values, degree, c.lambda + 2.0 / 3 * c.mu, blocks);
+}
+
 // Largest row sum of absolute values of mass^-1 stiffness: no eigenvalue is larger.
 double norm_of(const std::vector<double> &blocks, const std::vector<double> &mass) {
   const std::size_t n = mass.size();
@@ -161,7 +211,7 @@ ElasticModel make_elastic_model(const Grid &grid, int degree, std::vector<Materi
       model.mass[static_cast<std::size_t>(model.cell_nodes[n * number + a])] += lumped[a];
     }
     model.volume += cell_volume;
-    integrate_cell(values, lame(material), blocks);
+    integrate_cell(values, degree, material, blocks);
     model.cell_bound = std::max(model.cell_bound, norm_of(blocks, lumped));
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t b = 0; b < n; ++b) {

@@ -1,6 +1,7 @@
 // A discrete linear elastic solid: nodes, stiffness, lumped mass. Small strain, hexahedra of degree 1 or 2 on
 // trilinear cells. Degree 2 does not lock in bending or near incompressibility, so it suits thin sheets and
-// rubber.
+// rubber. Cells of a material that yields keep the volume in mean (degree 1) or linearly, so that neither
+// degree locks when it flows.
 #pragma once
 
 #include <array>
@@ -56,9 +57,13 @@ double von_mises(const Stress &stress); // Pa
 
 // Stress for displacements at the nodes (m). It is computed at the Gauss points of the next lower order,
 // where it is most accurate (Barlow 1976), then averaged over the cell or extrapolated to its nodes.
-std::vector<Stress> cell_stress(const ElasticModel &model, const std::vector<Vector3> &displacement);
+// `plastic`: YieldingCells::stresses of a solid that yields, to be taken off. Its nodes have the mean of the
+// cell, which is on the yield surface or within as those of the points are.
+std::vector<Stress> cell_stress(const ElasticModel &model, const std::vector<Vector3> &displacement,
+                                const std::vector<Stress> &plastic = {});
 // One entry per entry of cell_nodes: the mean over all cells of the same material that share the node.
-std::vector<Stress> nodal_stress(const ElasticModel &model, const std::vector<Vector3> &displacement);
+std::vector<Stress> nodal_stress(const ElasticModel &model, const std::vector<Vector3> &displacement,
+                                 const std::vector<Stress> &plastic = {});
 
 // The indentation of a mesh under a point force on its surface. It diverges as the mesh is refined and
 // depends on the position of the force in a face; a contact can subtract it from its own compliance.

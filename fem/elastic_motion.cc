@@ -232,15 +232,20 @@ void ElasticSolid::substep(double dt) {
   for (std::size_t i = 0; i < moved_.size(); ++i)
     moved_[i] = moved_[i] + dt * rate_[i];
   place_held();
-  find_internal_forces();
+  find_internal_forces(true);
   internal_kick(0.5 * dt);
   last_step_ = dt;
 }
 
-void ElasticSolid::find_internal_forces() {
+void ElasticSolid::find_internal_forces(bool yields) {
   for (std::size_t i = 0; i < moved_.size(); ++i)
     strained_[i] = turned_ ? to_frame(arm(i)) - (model_.nodes[i] - pivot_) : moved_[i] - displacement_;
   multiply(model_.stiffness, strained_, force_);
+  if (yielding_) {
+    if (yields) yielding_->yield(strained_);
+    for (std::size_t i = 0; i < force_.size(); ++i)
+      force_[i] = force_[i] - yielding_->forces()[i];
+  }
   for (Vector3 &f : force_)
     f = -1.0 * to_space(f);
 }

@@ -49,6 +49,11 @@ ElasticSolid::ElasticSolid(const Grid &grid, std::vector<Material> materials, co
     start_.assign(n, Vector3{}), target_.assign(n, Vector3{});
   else
     strained_.assign(n, Vector3{}), force_.assign(n, Vector3{});
+  for (const Material &material : model_.materials) {
+    if (!material.hardening || yielding_) continue;
+    require(!is_static(), "elastic solid: a quasi-static body does not yield");
+    yielding_.emplace(model_);
+  }
   if (clamp.turns) weigh_rotor();
   if (slides()) weigh_clamp();
   stable_step_ = std::numeric_limits<double>::infinity();
@@ -113,6 +118,7 @@ void ElasticSolid::describe(Archive &archive) {
   } else {
     archive.same_rows("node_displacement", moved_, "m");
     archive.same_rows("node_velocity", rate_, "m/s");
+    if (yielding_) yielding_->describe(archive);
   }
   describe_loads(archive);
   if (archive.reads()) follow_state();
@@ -123,7 +129,7 @@ void ElasticSolid::follow_state() {
   if (is_static())
     measure_path();
   else
-    find_internal_forces();
+    find_internal_forces(false);
   place_surface();
 }
 

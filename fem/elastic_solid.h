@@ -11,9 +11,12 @@
 // Grubmueller et al. 1991, Tuckerman et al. 1992): second order in both steps, and velocity Verlet with one
 // substep. Quasi-static: no inertia of deformation; solve_for() solves for the shape under given loads, drift
 // moves to it at constant velocity.
+//
+// Explicit: a material with a hardening yields (yielding_cells.h).
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "base/vector3.h"
@@ -21,6 +24,7 @@
 #include "fem/elastic_model.h"
 #include "fem/node_matrix.h"
 #include "fem/static_equations.h"
+#include "fem/yielding_cells.h"
 
 namespace platen::fem {
 
@@ -108,6 +112,11 @@ public:
   double kinetic_energy() const; // J
   EnergyBalance energy_balance() const override;
 
+  // Equivalent, mean of each cell's points; empty where no material yields.
+  std::vector<double> plastic_strains() const {
+    return yielding_ ? yielding_->strains() : std::vector<double>{};
+  }
+
   // Displacement of each node relative to the frame, in the frame's axes (m).
   std::vector<Vector3> deformation() const;
 
@@ -144,7 +153,7 @@ private:
 
   // Explicit steps.
   void substep(double dt);
-  void find_internal_forces();
+  void find_internal_forces(bool yields);
   void internal_kick(double dt);
   void damp(double dt);
   void give_to_clamp(double dt, const Vector3 &force, const Vector3 &moment);
@@ -173,6 +182,7 @@ private:
   bool turned_ = false;
   std::vector<Vector3> moved_, rate_;     // m, m/s per node, global axes; explicit
   std::vector<Vector3> strained_, force_; // m and N per node: u, and internal forces in global axes
+  std::optional<YieldingCells> yielding_; // none: all materials are elastic
   std::vector<Vector3> start_, target_;   // m per node, frame's axes; quasi-static
   double elapsed_ = 0, duration_ = 0;     // s since the start of the path, and its total
   bool on_the_path_ = false;              // whether the last drift deformed the body

@@ -32,6 +32,10 @@ EnergyBalance ElasticSolid::energy_balance() const {
     along -= dot(free, clamp_.slides);
     if (turns()) moment = moment - cross(arm(i), free);
   }
+  if (yielding_) {
+    balance.strain += yielding_->energy_of_plastic_strain() - 0.5 * dot(strained_, yielding_->forces());
+    balance.plastic = yielding_->plastic_work();
+  }
   if (slides()) shift += along * along / sliding_mass_;
   if (turns()) {
     const Vector3 m = to_frame(moment);

@@ -19,7 +19,8 @@ constexpr std::array<std::size_t, 27> vtk_order = {0,  1,  3,  2,  4,  5,  7,  6
 // Each element has its own points, since stress jumps between materials.
 Picture ElasticSolid::picture(const std::vector<double> &slip) const {
   const std::vector<Vector3> u = deformation();
-  const std::vector<Stress> stress = nodal_stress(model_, u);
+  const std::vector<Stress> stress =
+      nodal_stress(model_, u, yielding_ ? yielding_->stresses() : std::vector<Stress>{});
   std::vector<Vector3> displacement(u.size());
   for (std::size_t i = 0; i < u.size(); ++i)
     displacement[i] = carried(i) + to_space(u[i]);
@@ -46,6 +47,7 @@ Picture ElasticSolid::picture(const std::vector<double> &slip) const {
   }
   picture.of_points.push_back(std::move(tensor));
   picture.of_points.push_back(std::move(mises));
+  if (yielding_) picture.of_cells.push_back({"plastic_strain", 1, plastic_strains()});
   return picture;
 }
 

@@ -35,7 +35,7 @@ inline void put(ElasticSolid &solid, const std::vector<Vector3> &loads) {
 }
 
 inline double total(const EnergyBalance &b) {
-  return b.kinetic + b.strain + b.dissipated + b.unbalanced - b.load_work - b.clamp_work;
+  return b.kinetic + b.strain + b.dissipated + b.plastic + b.unbalanced - b.load_work - b.clamp_work;
 }
 
 // A deformation without pattern, the same each time.

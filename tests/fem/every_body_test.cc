@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "fem/rigid_body.h"
 #include "tests/fem/elastic_plate.h"
+#include "tests/fem/metal.h"
 #include "tests/fem/rubber_sleeve.h"
 #include "tests/same_state.h"
 
@@ -68,6 +69,32 @@ struct Elastic : OfPlate {
     OfPlate::step(solid, k);
   }
 };
+struct Yielding {
+  static constexpr const char *name = "yielding";
+  static ElasticSolid make() {
+    Material metal = steel;
+    metal.hardening = lines({{0, 1e5}}, 1e5, 20);
+    Clamp clamp;
+    clamp.turns = true;
+    clamp.seat = {0.01, 0, 0.02};
+    ElasticSolid solid(make_grid(CylinderPlate{0.03, 0.02, 0, 12, 3}), {metal}, clamp, {2});
+    solid.set_velocity({0, 0, -0.2});
+    return solid;
+  }
+  static void step(ElasticSolid &solid, int k) {
+    const double dt = 0.5 * solid.stable_step();
+    solid.kick(0.5 * dt), solid.drift(dt);
+    load(solid, k, 100, 1);
+    solid.kick(0.5 * dt);
+    const double lost = solid.energy_balance().plastic;
+    if (k == 14) {
+      EXPECT_GT(lost, 0);
+    }
+    if (k == 59) {
+      EXPECT_LT(lost, 1);
+    }
+  }
+};
 struct OfRubber {
   static constexpr const char *name = "rubber";
   static HyperelasticSolid make() {
@@ -91,7 +118,7 @@ struct NameOf {
   }
 };
 using Kinds = testing::Types<Rigid, RigidOnSeat, Elastic<ElasticMotion::explicit_steps>,
-                             Elastic<ElasticMotion::quasi_static>, OfRubber>;
+                             Elastic<ElasticMotion::quasi_static>, Yielding, OfRubber>;
 TYPED_TEST_SUITE(EveryBody, Kinds, NameOf);
 
 TYPED_TEST(EveryBody, goes_on_from_its_state_to_the_last_bit) {
