@@ -38,10 +38,7 @@ public:
     if (!l_.unload_at.empty()) cycles();
     lateral();
     if (l_.cell) cell();
-    if (l_.sleeve() != nullptr) {
-      const std::vector<Fault> more = sleeve_faults(s_, shape_, has_servo());
-      found_.insert(found_.end(), more.begin(), more.end());
-    }
+    if (l_.sleeve() != nullptr) take(sleeve_faults(s_, shape_, has_servo()));
     if (p_.left || p_.right || p_.front || p_.back) sides();
     if (!l_.stages.empty()) stages();
     return std::move(found_);
@@ -49,6 +46,7 @@ public:
 
 private:
   void refuse(const std::string &member, const std::string &reason) { found_.push_back({member, reason}); }
+  void take(const std::vector<Fault> &more) { found_.insert(found_.end(), more.begin(), more.end()); }
   void refuse_if(bool broken, const std::string &member, const std::string &reason) {
     if (broken) refuse(member, reason);
   }
@@ -100,6 +98,30 @@ private:
         has_plate && p_.thickness > 0 && p_.elastic->pad_thickness >= p_.thickness,
         "platens.elastic.pad_thickness",
         "leaves nothing of the platen. Allowed: 0 ... " + text_of(p_.thickness) + " m, `platens.thickness`.");
+    if (!p_.elastic->metal) return;
+    refuse_if(p_.elastic->motion == fem::ElasticMotion::quasi_static, "platens.elastic.motion",
+              "is of platens that stay elastic: what yields goes its path in steps. Allowed: explicit, or "
+              "`platens.elastic.metal` = elastic.");
+    refuse_if(
+        std::none_of(all_sides.begin(), all_sides.end(), [&](Side side) { return has_own_material(side); }),
+        "platens.elastic.metal",
+        "is the law of the platens' own material, and layers of others take all of their thickness. "
+        "Allowed: elastic.");
+    take(metal_faults(*p_.elastic->metal, "platens.elastic.metal.", p_.material.young_modulus,
+                      "platens.young_modulus"));
+  }
+
+  bool has_own_material(Side which) const {
+    const PlatenSide *side = p_.side(which);
+    if (side == nullptr) return false;
+    const std::vector<PlatenLayer> &layers = side->layers.empty() ? p_.elastic->layers : side->layers;
+    double sum = 0; // m
+    for (const PlatenLayer &layer : layers)
+      sum += layer.thickness;
+    const bool rest =
+        !side->grid && sum < (1 - 1e-9) * (side->thickness > 0 ? side->thickness : p_.thickness);
+    return layers.empty() || rest ||
+           std::any_of(layers.begin(), layers.end(), [](const PlatenLayer &layer) { return layer.own; });
   }
 
   void machine() {

@@ -1,4 +1,4 @@
-// A metal that yields (fem/materials/j2_plasticity.h), as the wall of a tube.
+// A metal that yields (fem/materials/j2_plasticity.h): the wall of a tube, or platens.
 #pragma once
 
 #include <vector>
@@ -19,14 +19,20 @@ struct MetalSettings {
   // Throws std::invalid_argument where it is no hardening.
   fem::Hardening hardening(double young_modulus) const;
 
-  static constexpr const char *name = "sleeve.metal";
+  static constexpr const char *name = "sleeve.metal"; // of a tube
   template <class Visitor, class Self>
   static void describe(Visitor &&v, Self &p);
 };
 
+// Of the platens' own material.
+struct PlatenMetal : MetalSettings {
+  static constexpr const char *name = "platens.elastic.metal";
+};
+
 template <class Visitor, class Self>
 void MetalSettings::describe(Visitor &&v, Self &p) {
-  v("yield_strength", p.yield_strength, "Pa", above(0), "Of a wall of metal.");
+  v("yield_strength", p.yield_strength, "Pa", above(0),
+    "Stress at which the metal yields, in tension as in compression.");
   v("ultimate_strength", p.ultimate_strength, "Pa", above(0),
     "Of structural steel, in tension: it hardens by the lines of Yun and Gardner 2017; not given: the flow "
     "stress stays what it is at yield.");

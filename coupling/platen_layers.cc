@@ -18,9 +18,12 @@ std::string owner(const PlatenSettings &p, Side side) {
   return std::string("platens.") + (p.side(side)->layers.empty() ? "elastic" : name_of(side)) + ".layers";
 }
 
-const std::vector<PlatenLayer> &given_layers(const PlatenSettings &p, Side side) {
+std::vector<PlatenLayer> given_layers(const PlatenSettings &p, Side side) {
   const std::vector<PlatenLayer> &own = p.side(side)->layers;
-  return own.empty() ? p.elastic->layers : own;
+  std::vector<PlatenLayer> layers = own.empty() ? p.elastic->layers : own;
+  for (PlatenLayer &layer : layers)
+    if (layer.own) layer.material = own_material(p);
+  return layers;
 }
 
 void require_valid(const PlatenLayer &layer, const std::string &member) {
@@ -34,7 +37,7 @@ void require_valid(const PlatenLayer &layer, const std::string &member) {
 std::vector<fem::Material> materials_of_grid(const PlatenSettings &p, Side side) {
   const int volumes = fem::materials_of(p.side(side)->grid);
   const std::string has = "has " + std::to_string(volumes) + " physical volumes: ";
-  const std::vector<PlatenLayer> &layers = given_layers(p, side);
+  const std::vector<PlatenLayer> layers = given_layers(p, side);
   std::vector<fem::Material> materials;
   for (const PlatenLayer &layer : layers) {
     require_valid(layer, owner(p, side));
@@ -48,12 +51,18 @@ std::vector<fem::Material> materials_of_grid(const PlatenSettings &p, Side side)
     throw std::invalid_argument(has + "the second needs `platens.elastic.pad_modulus`");
   if (volumes > 2)
     throw std::invalid_argument(has + "two are known without `platens.elastic.layers`, platen and pad");
-  materials.push_back(p.material);
+  materials.push_back(own_material(p));
   if (volumes > 1) materials.push_back(p.elastic->pad);
   return materials;
 }
 
 } // namespace
+
+fem::Material own_material(const PlatenSettings &p) {
+  fem::Material material = p.material;
+  if (p.elastic && p.elastic->metal) material.hardening = p.elastic->metal->hardening(material.young_modulus);
+  return material;
+}
 
 double thickness_of(const PlatenSettings &settings, Side side) {
   const double own = settings.side(side)->thickness;
@@ -65,7 +74,7 @@ std::vector<PlatenLayer> layers_of(const PlatenSettings &p, Side side) {
   const ElasticPlatens &elastic = *p.elastic;
   std::vector<PlatenLayer> layers = given_layers(p, side);
   if (layers.empty() && elastic.pad_thickness > 0)
-    return {{elastic.pad_thickness, elastic.pad}, {thickness - elastic.pad_thickness, p.material}};
+    return {{elastic.pad_thickness, elastic.pad}, {thickness - elastic.pad_thickness, own_material(p)}};
   double sum = 0;
   for (const PlatenLayer &layer : layers) {
     if (!(layer.thickness > 0))
@@ -76,7 +85,7 @@ std::vector<PlatenLayer> layers_of(const PlatenSettings &p, Side side) {
   if (sum > (1 + round_off) * thickness)
     throw BadSetup(owner(p, side), "is " + text_of(sum) + " m thick. Allowed: up to " + text_of(thickness) +
                                        " m, the thickness of the platen.");
-  if (thickness - sum > round_off * thickness) layers.push_back({thickness - sum, p.material});
+  if (thickness - sum > round_off * thickness) layers.push_back({thickness - sum, own_material(p)});
   return layers;
 }
 

@@ -11,6 +11,9 @@ namespace platen::coupling {
 // m, of the platen of a side, for a plate.
 double thickness_of(const PlatenSettings &settings, Side side);
 
+// The platens' own material, with its hardening where it yields.
+fem::Material own_material(const PlatenSettings &settings);
+
 // Layers of an elastic platen, from the specimen outward; its own material fills the rest of the thickness.
 // Throws BadSetup where the layers are thicker than that, or a layer is not valid.
 std::vector<PlatenLayer> layers_of(const PlatenSettings &settings, Side side);

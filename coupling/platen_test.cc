@@ -96,6 +96,22 @@ double PlatenTest::seconds_behind() const {
   return latest;
 }
 
+double PlatenTest::platen_plastic_work() const {
+  double work = 0;
+  for (const ElasticPlaten *platen : elastic_)
+    if (platen != nullptr) work += platen->solid().energy_balance().plastic;
+  return work;
+}
+
+double PlatenTest::platen_plastic_strain() const {
+  double largest = 0;
+  for (const ElasticPlaten *platen : elastic_)
+    if (platen != nullptr)
+      for (const double strain : platen->solid().plastic_strains())
+        largest = std::max(largest, strain);
+  return largest;
+}
+
 void PlatenTest::require_one_section() const {
   if (!settings_.net_section || section_.fills()) return;
   if (bent() || shape().kind == dem::ShapeKind::disc || loaded_axis(*this) != 2)
@@ -123,6 +139,7 @@ void PlatenTest::require_in_range() const {
   platen::require_in_range(settings_.platens);
   platen::require_in_range(settings_.platens.machine);
   if (settings_.platens.elastic) platen::require_in_range(*settings_.platens.elastic);
+  if (platens_yield()) platen::require_in_range(*settings_.platens.elastic->metal);
   platen::require_in_range(loading);
   if (loading.cell) platen::require_in_range(*loading.cell);
   if (const SleeveSettings *sleeve = loading.sleeve()) platen::require_in_range(*sleeve);
@@ -139,7 +156,7 @@ void PlatenTest::add_platens(const dem::Specimen &specimen) {
     platens_[static_cast<std::size_t>(side)] = made.platen.get();
     if (has_neighbours(settings_.platens, side))
       made.platen->set_clearance(edge_gap(shape(), settings_.platens, axis_of(side)));
-    if (side == Side::top) elastic_top_ = made.elastic;
+    elastic_[static_cast<std::size_t>(side)] = made.elastic;
     add(std::move(made.platen));
   }
   ends_.emplace(EndPlatens{bottom(), top(), platen_plane(specimen, settings_, Side::bottom),

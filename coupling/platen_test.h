@@ -70,7 +70,7 @@ public:
   std::optional<RateControl::Parameters> rate_control() const;
   const Platen *platen(Side side) const { return platens_[static_cast<std::size_t>(side)]; }
   Platen *platen(Side side) { return platens_[static_cast<std::size_t>(side)]; }
-  const ElasticPlaten *elastic_top() const { return elastic_top_; }
+  const ElasticPlaten *elastic_top() const { return elastic_[static_cast<std::size_t>(Side::top)]; }
   Sleeve *sleeve() { return sleeve_; }
   const Sleeve *sleeve() const { return sleeve_; }
   const Sleeve *tube() const { return settings_.loading.tube ? sleeve_ : nullptr; } // a sleeve without a cell
@@ -80,6 +80,9 @@ public:
   bool without_inertia() const { // elastic platens that are solved for statically
     return settings_.platens.elastic && settings_.platens.elastic->motion == fem::ElasticMotion::quasi_static;
   }
+  bool platens_yield() const { return settings_.platens.elastic && settings_.platens.elastic->metal; }
+  double platen_plastic_work() const;   // J, lost since the start
+  double platen_plastic_strain() const; // equivalent, the largest mean of an element
   // What a platen covers of its end at the start; nothing for a disc and for a bent bar, which strips press.
   std::optional<PlatenCover> cover(Side side) const;
   bool bent() const { return settings_.platens.span > 0; } // a bar between one strip above and two below
@@ -160,8 +163,8 @@ private:
 
   PlatenTestSettings settings_;
   SpecimenFacts facts_;
-  std::array<Platen *, side_count> platens_{}; // by Side
-  const ElasticPlaten *elastic_top_ = nullptr;
+  std::array<Platen *, side_count> platens_{};              // by Side
+  std::array<const ElasticPlaten *, side_count> elastic_{}; // those that deform
   std::optional<EndPlatens> ends_;
   Sleeve *sleeve_ = nullptr;
   const SkinPressure *skin_ = nullptr;

@@ -11,6 +11,7 @@
 #include "coupling/boundaries/machine_spring.h"
 #include "coupling/boundaries/sleeve.h"
 #include "coupling/experiment.h"
+#include "coupling/metal_settings.h"
 #include "coupling/side.h"
 #include "coupling/stage_settings.h"
 #include "dem/confinement.h"
@@ -26,6 +27,7 @@ using dem::FacedEnds;
 struct PlatenLayer {
   double thickness = 0;                                    // m; not used with a given grid
   fem::Material material{not_given, not_given, not_given}; // has to be given
+  bool own = false; // of the platens' own material instead, which may yield
 };
 
 struct PlatenSide : dem::SurfaceFriction {
@@ -46,6 +48,7 @@ struct ElasticPlatens {
   // From the specimen outward; the rest of the thickness is of the platens' material. With a given grid: one
   // layer for each physical volume, in their order. Empty: platen and pad.
   std::vector<PlatenLayer> layers;
+  std::optional<PlatenMetal> metal; // the platens' own material yields; explicit motion only. None: elastic
 
   static constexpr const char *name = "platens.elastic";
   template <class Visitor, class Self>

@@ -71,7 +71,11 @@ private:
           "is more than a tenth of the radius. Allowed: up to " + text_of(most_gap * shape_->radius) + " m.");
     }
     if (tube.recess > 0) recess(tube.recess);
-    if (tube.metal) metal(tube, *tube.metal);
+    if (tube.metal) {
+      const std::vector<Fault> more =
+          metal_faults(*tube.metal, "sleeve.metal.", tube.young_modulus, "sleeve.young_modulus");
+      found_.insert(found_.end(), more.begin(), more.end());
+    }
     if (tube.wrap) wrap(tube, *tube.wrap);
   }
 
@@ -88,28 +92,6 @@ private:
     const double hoop = 2 * pi * shape_->radius;
     refuse_if(wrap.overlap > hoop, "sleeve.wrap.overlap",
               "is more than once around, which is a layer. Allowed: up to " + text_of(hoop) + " m.");
-  }
-
-  void metal(const SleeveSettings &tube, const MetalSettings &metal) {
-    refuse_if(std::isnan(metal.yield_strength), "sleeve.metal.yield_strength", "has to be given for a tube.");
-    refuse_if(
-        metal.yield_strength > largest_elastic_strain * tube.young_modulus, "sleeve.metal.yield_strength",
-        "is more than a tenth of Young's modulus: the law is of metals, whose elastic strains are small. "
-        "Allowed: up to " +
-            text_of(largest_elastic_strain * tube.young_modulus) + " Pa.");
-    refuse_if(metal.ultimate_strength < metal.yield_strength, "sleeve.metal.ultimate_strength",
-              "is below the yield strength. Allowed: " + text_of(metal.yield_strength) + " Pa or more.");
-    refuse_if(!std::isnan(metal.ultimate_strength) && !metal.points.empty(), "sleeve.metal.ultimate_strength",
-              "does not go with points of hardening. Allowed: one of both.");
-    refuse_if(metal.ultimate_strength > metal.yield_strength &&
-                  tube.young_modulus < least_modulus_of_steel * metal.yield_strength,
-              "sleeve.young_modulus",
-              "is too low beside the yield strength for the lines of structural steel: " +
-                  text_of(metal.yield_strength) +
-                  " Pa. Allowed: " + text_of(least_modulus_of_steel * metal.yield_strength) +
-                  " Pa or more, or no ultimate strength.");
-    refuse_if((metal.saturation > 0) != (metal.saturation_rate > 0), "sleeve.metal.saturation_rate",
-              "and the saturation go together. Allowed: both above 0, or none.");
   }
 
   // The specimen ends short of a platen.
@@ -137,6 +119,34 @@ private:
 };
 
 } // namespace
+
+std::vector<Fault> metal_faults(const MetalSettings &metal, const std::string &of, double young_modulus,
+                                const std::string &modulus_of) {
+  std::vector<Fault> found;
+  const auto refuse_if = [&](bool broken, const std::string &member, const std::string &reason) {
+    if (broken) found.push_back({member, reason});
+  };
+  refuse_if(std::isnan(metal.yield_strength), of + "yield_strength",
+            "has to be given for metal that yields. Allowed: above 0 Pa.");
+  refuse_if(metal.yield_strength > largest_elastic_strain * young_modulus, of + "yield_strength",
+            "is more than a tenth of Young's modulus: the law is of metals, whose elastic strains are small. "
+            "Allowed: up to " +
+                text_of(largest_elastic_strain * young_modulus) + " Pa.");
+  refuse_if(metal.ultimate_strength < metal.yield_strength, of + "ultimate_strength",
+            "is below the yield strength. Allowed: " + text_of(metal.yield_strength) + " Pa or more.");
+  refuse_if(!std::isnan(metal.ultimate_strength) && !metal.points.empty(), of + "ultimate_strength",
+            "does not go with points of hardening. Allowed: one of both.");
+  refuse_if(metal.ultimate_strength > metal.yield_strength &&
+                young_modulus < least_modulus_of_steel * metal.yield_strength,
+            modulus_of,
+            "is too low beside the yield strength for the lines of structural steel: " +
+                text_of(metal.yield_strength) +
+                " Pa. Allowed: " + text_of(least_modulus_of_steel * metal.yield_strength) +
+                " Pa or more, or no ultimate strength.");
+  refuse_if((metal.saturation > 0) != (metal.saturation_rate > 0), of + "saturation_rate",
+            "and the saturation go together. Allowed: both above 0, or none.");
+  return found;
+}
 
 std::vector<Fault> sleeve_faults(const PlatenTestSettings &settings, const dem::Shape *shape, bool servo) {
   return SleeveRules(settings, shape, servo).all();

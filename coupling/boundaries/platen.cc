@@ -233,6 +233,7 @@ void DynamicPlaten::add_energy(dem::EnergyLedger &energy) const {
   const fem::EnergyBalance own = body_->energy_balance();
   energy.bodies += own.strain + own.kinetic;
   energy.damping += own.dissipated;
+  energy.plastic += own.plastic;
   energy.friction += own.rubbed;
   energy.unbalanced += own.unbalanced;
   energy.boundary += own.clamp_work;

@@ -123,6 +123,10 @@ void add_stages(std::vector<Arrangement> &all) {
   tube.thickness = 0.1e-3, tube.elements_through = 1;
   add("wrap_that_tears", thin_cylinder, s, {"compression"});
   s = base;
+  s.platens.elastic = ElasticPlatens{};
+  s.platens.elastic->metal.emplace().yield_strength = 4e6;
+  add("platens_that_yield", thin_cylinder, s, {"compression"});
+  s = base;
   s.loading.rate_multiplier = 4;
   add("rate_that_falls_as_the_specimen_fails", thin_cylinder, s, {"compression"});
   s = six_platens();
@@ -176,6 +180,7 @@ TEST_P(Conformance, stops_and_threads_change_no_bit_and_the_energy_balance_close
   EXPECT_NO_THROW(whole.require_finite());
   const dem::EnergyLedger energy = whole.energy();
   EXPECT_GT(energy.boundary, 0);
+  EXPECT_EQ(whole.platen_plastic_work() > 0, whole.platens_yield());
   EXPECT_LT(residual(whole), s.missing);
   // What platens without inertia are behind in so fast a test; of a split disc it is that of a few breaks.
   EXPECT_LT(std::abs(energy.residual()),

@@ -95,6 +95,28 @@ TEST(elastic_platens, a_layer_of_spheres_transmits_the_load) {
   }
 }
 
+// Under a specimen that is far stronger: its stress is held by the platens, and most of the work is lost in
+// them.
+TEST(elastic_platens, of_metal_yield_and_the_ledger_has_their_work) {
+  double stress[2];
+  for (const bool metal : {false, true}) {
+    PlatenTestSettings settings = between(ElasticMotion::explicit_steps, 70e9);
+    settings.loading.rate = 1;
+    if (metal) settings.platens.elastic->metal.emplace().yield_strength = 10e6;
+    PlatenTest problem(cylinder(), settings);
+    while (clamp_closure(problem) < 6e-5)
+      advance_to(problem, problem.steps() + 100);
+    stress[metal] = problem.stress_top();
+    const dem::EnergyLedger energy = problem.energy();
+    EXPECT_LT(std::abs(energy.residual()), 1e-3 * energy.boundary) << metal;
+    EXPECT_EQ(problem.platens_yield(), metal);
+    EXPECT_EQ(energy.plastic, problem.platen_plastic_work());
+    EXPECT_EQ(energy.plastic > 0.3 * energy.boundary, metal);
+    EXPECT_EQ(problem.platen_plastic_strain() > 1e-3, metal);
+  }
+  EXPECT_LT(stress[1], 0.6 * stress[0]);
+}
+
 PlatenTestSettings on_pads(ElasticMotion motion) {
   PlatenTestSettings settings = between(motion, steel_modulus);
   settings.platens.overhang = 1;
@@ -204,6 +226,32 @@ TEST(platen_layers, begin_at_the_specimen_and_leave_the_rest_to_the_platen) {
   // Thicknesses that add up but for round-off leave nothing.
   p.elastic->layers = {{0.1 * 10e-3, rubber}, {0.7 * 10e-3, lead}, {0.2 * 10e-3, rubber}};
   EXPECT_EQ(layers_of(p, Side::top).size(), 3u);
+}
+
+TEST(platen_layers, yield_where_they_are_of_the_platens_own_material) {
+  PlatenSettings p = layered(10e-3).platens;
+  const auto yielding = [&](Side side) {
+    std::vector<bool> all;
+    for (const fem::Material &material : materials_of(p, side))
+      all.push_back(material.hardening.has_value());
+    return all;
+  };
+  using Which = std::vector<bool>;
+  EXPECT_EQ(yielding(Side::top), Which{false});
+  p.elastic->metal.emplace().yield_strength = 40e6;
+  p.elastic->metal->saturation = 30e6, p.elastic->metal->saturation_rate = 20;
+  EXPECT_EQ(yielding(Side::top), Which{true});
+  const fem::Hardening hardening = *materials_of(p, Side::top)[0].hardening;
+  EXPECT_EQ(hardening.yield_strength(), 40e6);
+  EXPECT_EQ(hardening.saturation, 30e6);
+  EXPECT_EQ(hardening.rate, 20);
+  p.elastic->pad_thickness = 1e-3, p.elastic->pad = rubber;
+  EXPECT_EQ(yielding(Side::top), (Which{false, true}));
+  p.elastic->pad_thickness = 0;
+  p.elastic->layers = {{1e-3, rubber}, {2e-3, lead, true}, {3e-3, lead}};
+  EXPECT_EQ(yielding(Side::top), (Which{false, true, false, true}));
+  EXPECT_EQ(yielding(Side::bottom), (Which{true, false, true, false}));
+  EXPECT_EQ(materials_of(p, Side::top)[1].density, plain.density);
 }
 
 // Of elastic platens by the nodes of degree 1 that were made: planes of one more node than layers.

@@ -154,6 +154,9 @@ TEST(Faults, a_machine_drives_what_it_can) {
 
 TEST(Faults, platens_that_yield_or_turn_move_with_inertia) {
   const auto yields = [](Settings &s) { s.platens.elastic.emplace(); };
+  const auto flows = [&](Settings &s) {
+    yields(s), s.platens.elastic->metal.emplace().yield_strength = 100e6;
+  };
   const auto spring = [](Settings &s) { s.platens.machine.stiffness = 1e8; };
   const fem::Grid mesh = fem::make_grid(fem::BoxPlate{{0, 0, 0}, {1, 1, 1}});
   expect_faults(
@@ -174,6 +177,35 @@ TEST(Faults, platens_that_yield_or_turn_move_with_inertia) {
        {"platens.elastic.layers", "another way to say",
         [&](Settings &s) {
           yields(s), s.platens.elastic->pad_thickness = 1e-3, s.platens.elastic->layers.resize(1);
+        }},
+       {"", "", flows},
+       {"platens.elastic.motion", "stay elastic",
+        [&](Settings &s) { flows(s), s.platens.elastic->motion = fem::ElasticMotion::quasi_static; }},
+       {"platens.elastic.metal.yield_strength", "has to be given",
+        [&](Settings &s) { flows(s), s.platens.elastic->metal->yield_strength = not_given; }},
+       {"platens.elastic.metal.yield_strength", "a tenth of Young's modulus",
+        [&](Settings &s) { flows(s), s.platens.elastic->metal->yield_strength = 20.1e9; }},
+       {"", "", [&](Settings &s) { flows(s), s.platens.elastic->metal->yield_strength = 19.9e9; }},
+       {"platens.young_modulus", "too low beside the yield strength",
+        [&](Settings &s) {
+          flows(s), s.platens.material.young_modulus = 9.9e9;
+          s.platens.elastic->metal->ultimate_strength = 150e6;
+        }},
+       {"platens.elastic.metal", "layers of others",
+        [&](Settings &s) {
+          flows(s), s.platens.elastic->layers = {{0.01, s.platens.material}};
+        }},
+       {"", "",
+        [&](Settings &s) {
+          flows(s), s.platens.elastic->layers = {{0.0099, s.platens.material}};
+        }},
+       {"", "",
+        [&](Settings &s) {
+          flows(s), s.platens.elastic->layers = {{0.01, {}, true}};
+        }},
+       {"", "", // the bottom platen yields
+        [&](Settings &s) {
+          flows(s), s.platens.top.layers = {{0.01, s.platens.material}};
         }},
        {"platens.machine.stiffness", "without inertia", [&](Settings &s) { spring(s), start_strained(s); }},
        {"platens.machine.damping", "lets a servo swing",

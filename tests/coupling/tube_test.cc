@@ -213,13 +213,13 @@ TEST(tube, hardens_as_its_settings_say) {
       EXPECT_STREQ(wrong.what(), says);
     }
   };
-  refused("tube: at most 31 points after the yield strength", many(32));
-  refused("tube: its ultimate strength is below its yield strength",
+  refused("metal: at most 31 points after the yield strength", many(32));
+  refused("metal: its ultimate strength is below its yield strength",
           [](M &m) { m.ultimate_strength = 399e6; });
-  refused("tube: an ultimate strength or points, not both", [](M &m) {
+  refused("metal: an ultimate strength or points, not both", [](M &m) {
     m.ultimate_strength = 500e6, m.points = {{0.5, 600e6}};
   });
-  refused("tube: its yield strength must be positive", [](M &m) { m.yield_strength = not_given; });
+  refused("metal: its yield strength must be positive", [](M &m) { m.yield_strength = not_given; });
 }
 
 // Its mass is made such that it is stepped once in four steps, however thin its elements are.
