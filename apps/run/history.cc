@@ -67,6 +67,9 @@ bool in_wrap(const PlatenTest &p) {
 bool in_bonded_tube(const PlatenTest &p) {
   return in_tube(p) && p.tube()->is_bonded();
 }
+bool platens_yield(const PlatenTest &p) {
+  return p.platens_yield();
+}
 bool of_disc(const PlatenTest &p) {
   return p.shape().kind == dem::ShapeKind::disc;
 }
@@ -216,6 +219,11 @@ const std::vector<HistoryColumn> &history_columns() {
       {"platen_unbalanced_work_j", "J", &S::unbalanced_work,
        [](const Seen &s) { return s.energy.unbalanced; }, number,
        [](const PlatenTest &p) { return p.without_inertia(); }},
+      {"platen_plastic_work_j", "J", &S::platen_plastic,
+       [](const Seen &s) { return s.problem.platen_plastic_work(); }, number, platens_yield,
+       without_ledger},
+      {"platen_plastic_strain", "1", nullptr, [](const Seen &s) { return s.problem.platen_plastic_strain(); },
+       number, platens_yield},
       {"stage", "1", &S::stage,
        [](const Seen &s) { return 1.0 + static_cast<double>(s.problem.program().stage_number()); }, count,
        staged},

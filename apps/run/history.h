@@ -37,7 +37,8 @@ struct Sample {
   double wrap_hoop = 0, wrap_most_hoop = 0, wrap_torn = 0; // of a wrap: strains of its hoops, torn fraction
   double intact_bonds = 0, broken_tension = 0, broken_shear = 0;
   double kinetic = 0, bond = 0, contact = 0, body = 0, damping = 0, friction = 0, fracture = 0, boundary = 0,
-         plastic = 0;        // J
+         plastic = 0,        // J
+      platen_plastic = 0;    // J, of it in platens
   double residual = 0;       // J
   double unbalanced = 0;     // 1
   double platen_speed = 0;   // m/s

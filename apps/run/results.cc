@@ -280,7 +280,7 @@ ModulusState Results::modulus_state() const {
   state.unequal = unequal(samples_[c.after - 1], s, c.weight);
   state.readings = readings_until(c.after);
   state.broken = s.broken() - zero().broken();
-  const double plastic = s.plastic - zero().plastic;
+  const double plastic = s.plastic - s.platen_plastic - (zero().plastic - zero().platen_plastic);
   if (s.bond > 0 && plastic > 0) state.plastic_share = plastic / s.bond;
   state.loaded_on = s.loads != 0 && s.setting == zero().setting;
   return state;
@@ -332,7 +332,8 @@ double Results::work_over_strain() const {
 double Results::lost_in_bonds() const {
   if (samples_.empty()) return not_measured;
   const Sample &first = samples_.front(), &last = samples_.back();
-  return last.fracture + last.plastic - first.fracture - first.plastic;
+  const auto lost = [](const Sample &s) { return s.fracture + s.plastic - s.platen_plastic; };
+  return lost(last) - lost(first);
 }
 
 std::vector<Sample> Results::rise() const {

@@ -59,8 +59,9 @@ std::string text_of_parts(const coupling::PlatenTest &test) {
         sleeve->solid().mesh().cells.size(), sleeve->layer().seats(),
         sleeve->steps_of_next_interval(test.time_step()), sleeve->mass_scaling(), test.cell_ramp());
   if (const coupling::ElasticPlaten *top = test.elastic_top())
-    text += fmt::format("  platens: elastic, {} nodes each, {} of their own steps in a time step\n",
-                        top->solid().model().nodes.size(), top->solid().substeps(test.time_step()));
+    text += fmt::format("  platens: {}, {} nodes each, {} of their own steps in a time step\n",
+                        test.platens_yield() ? "yielding" : "elastic", top->solid().model().nodes.size(),
+                        top->solid().substeps(test.time_step()));
   if (const double behind = test.seconds_behind(); behind > 0)
     text += fmt::format("  platens without inertia come {:.3g} s after their loads\n", behind);
   if (const coupling::MachineSpring *machine = test.machine()) {

@@ -86,7 +86,11 @@ void SceneCheck::asked_of_program() const {
 void SceneCheck::platens() const {
   if (!loads()) return;
   if (!situation().given_by_program("Platens/Surface")) surfaces();
-  if (scene_.platens.deformable) layers();
+  if (scene_.platens.deformable)
+    layers();
+  else if (scene_.platens.yielding)
+    refuse("Platens/Material law",
+           "yields, but Platens/Kind = rigid. Allowed: elastic, or deformable platens.");
   meshes();
 }
 

@@ -122,7 +122,8 @@ double supply(const Parameters &parameters, const Platens &platens, const std::s
   double sum = 0;
   for (const NamedLayer &one : named) {
     const double thickness = std::isnan(one.thickness) ? 0 : one.thickness;
-    layers.push_back({thickness, material_named(one.material, path, parameters, platens)});
+    layers.push_back(
+        {thickness, material_named(one.material, path, parameters, platens), one.material == own_material});
     sum += thickness;
   }
   return sum;

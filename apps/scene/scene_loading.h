@@ -62,6 +62,7 @@ struct NamedMaterial {
 
 struct Platens : coupling::PlatenSettings {
   bool deformable = false; // `elastic` counts then
+  bool yielding = false;   // `elastic->metal` counts then
   SurfaceKind surface = SurfaceKind::custom;
   dem::SurfaceFriction both{0.3, not_given, {}}; // what a side takes where the file gives none
   PlatenSides sides = PlatenSides::two;
@@ -72,7 +73,7 @@ struct Platens : coupling::PlatenSettings {
   std::vector<NamedMaterial> layer_materials;
 
   Platens() {
-    elastic.emplace();
+    elastic.emplace().metal.emplace();
     left.emplace(), right.emplace(), front.emplace(), back.emplace();
     for (const coupling::Side side : coupling::all_sides)
       at(side).friction_static = not_given;

@@ -110,6 +110,17 @@ void declare_elastic(Section section, Platens &platens) {
   of("degree");
   of("damping", "Body damping").only_if("Platens/Motion", {"explicit"});
   of("steps_per_solve").only_if("Platens/Motion", {"quasi-static"});
+  section
+      .entry<bool>("Material law", platens.yielding, {{"elastic", false}, {"yielding", true}},
+                   "Of the material of deformable platens; yielding: a metal, which yields by von Mises and "
+                   "hardens, with Motion = explicit. Pad and layers of other materials stay elastic.")
+      .member("platens.elastic.metal");
+  Members metal(section.only_if("Platens/Material law", {"yielding"}), *platens.elastic->metal);
+  metal("yield_strength").needed_if([](const Situation &s) {
+    const Platens &p = s.scene.platens;
+    return s.loads() && p.deformable && p.yielding ? "the platens yield." : "";
+  });
+  metal.rest();
   declare_layers(section, platens);
   of("pad_thickness");
   Members pad(section.only_if(

@@ -16,6 +16,7 @@ coupling::PlatenSettings platen_settings(const Scene &scene) {
   Platens all = scene.platens;
   if (!all.has(Side::left)) all.left.reset(), all.right.reset();
   if (!all.has(Side::front)) all.front.reset(), all.back.reset();
+  if (!all.yielding) all.elastic->metal.reset();
   if (!all.deformable) all.elastic.reset();
   if (!scene.loading.bending()) all.span = not_given;
   const auto is_plate = [&](coupling::Side side) { return all.face(side).mesh_file.empty(); };

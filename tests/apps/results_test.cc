@@ -175,7 +175,8 @@ TEST_F(Asked, work_is_the_area_under_the_curve) {
 TEST_F(Asked, losses_of_bonds_count_from_the_start) {
   for (const auto &[plastic, fracture] : {std::pair{1.0, 2.0}, {4.0, 2.0}, {2.5, 7.0}}) {
     Sample s;
-    s.plastic = plastic, s.fracture = fracture;
+    s.platen_plastic = 3 * plastic; // what platens lose is none of it
+    s.plastic = plastic + s.platen_plastic, s.fracture = fracture;
     results_.add(s, problem_);
   }
   EXPECT_DOUBLE_EQ(results_.lost_in_bonds(), 6.5);

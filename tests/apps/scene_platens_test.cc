@@ -107,6 +107,24 @@ TEST(ScenePlatens, a_tube_arrives_with_its_steel) {
   expect_same(*noted.cell->sleeve, *rubber.cell->sleeve);
 }
 
+TEST(ScenePlatens, deformable_ones_of_metal_yield) {
+  const auto elastic = [](const Entries &more) {
+    Entries all{"Platens/Kind = deformable", "Platens/Yield strength = 40 MPa", "Platens/Saturation = 30 MPa",
+                "Platens/Saturation rate = 20", "Platens/Layers = gypsum 1 mm, platen 2 mm"};
+    all.insert(all.end(), more.begin(), more.end());
+    return *problem_settings(scene_with(all)).platens.elastic;
+  };
+  EXPECT_FALSE(elastic({}).metal);
+  const coupling::ElasticPlatens yielding = elastic({"Platens/Material law = yielding"});
+  ASSERT_TRUE(yielding.metal);
+  EXPECT_EQ(yielding.metal->yield_strength, 40e6);
+  EXPECT_EQ(yielding.metal->saturation, 30e6);
+  EXPECT_EQ(yielding.metal->saturation_rate, 20);
+  EXPECT_TRUE(std::isnan(yielding.metal->ultimate_strength));
+  EXPECT_FALSE(yielding.layers.at(0).own);
+  EXPECT_TRUE(yielding.layers.at(1).own);
+}
+
 TEST(ScenePlatens, the_hardening_of_a_tube_is_read_from_a_file) {
   const auto read = [](const std::string &text) {
     const std::string path = ::testing::TempDir() + "/hardening.csv";

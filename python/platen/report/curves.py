@@ -144,7 +144,7 @@ def _terms(run, main):
 def energies(axes, run, main=True):
     """Over strain (time, where that goes back), where the work of the platens went; with main=False its small terms and the residual."""
     law, terms = run.entry("Effects/Bond"), _terms(run, main)
-    plastic = "plastic work of bonds" + (" and tube" if wall_word(run) == "tube" else "") + f" ({law or 'all laws'})"
+    plastic = "plastic work of bonds" + (" and tube" if wall_word(run) == "tube" else "") + (" and platens" if run.has("platen_plastic_work_j") else "") + f" ({law or 'all laws'})"
     bodies = [name for name, there in (("platens", "deformable" in run.entries.values()), (wall_word(run), run.series("sleeve")),
                                        ("machine", run.entry("Platens/Machine stiffness"))) if there]
     small = max(numpy.nanmax(numpy.abs(run.h[column]), initial=0) for column, *_ in terms) < _SMALL_JOULES
