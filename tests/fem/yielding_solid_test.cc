@@ -8,6 +8,7 @@
 #include "fem/elastic_solid.h"
 #include "tests/fem/elastic_plate.h"
 #include "tests/fem/metal.h"
+#include "tests/fem/rubber_sleeve.h"
 #include "tests/measured.h"
 
 namespace platen::fem::yielding_solid_test {
@@ -30,9 +31,13 @@ struct Patch {
   explicit Patch(int degree)
       : model(make_elastic_model(distorted_grid(), degree, {ductile(curved)})), cells(model) {}
   void deform(const Gradient &g) {
-    u.clear();
+    std::vector<Vector3> field;
     for (const Vector3 &x : model.nodes)
-      u.push_back({dot({g[0], g[1], g[2]}, x), dot({g[3], g[4], g[5]}, x), dot({g[6], g[7], g[8]}, x)});
+      field.push_back({dot({g[0], g[1], g[2]}, x), dot({g[3], g[4], g[5]}, x), dot({g[6], g[7], g[8]}, x)});
+    move_to(field);
+  }
+  void move_to(const std::vector<Vector3> &field) {
+    u = field;
     cells.yield(u);
     multiply(model.stiffness, u, force);
     stored = 0.5 * dot(u, force) - dot(u, cells.forces()) + cells.energy_of_plastic_strain();
@@ -124,6 +129,33 @@ TEST(yielding_solid, a_layer_between_walls_stays_elastic_in_volume) {
     const double along = -bulk * e - 2.0 / 3 * flow, across = -bulk * e + flow / 3;
     EXPECT_LT(norm(patch.face(2) - area * Vector3{0, 0, along}), 1e-10 * area * std::abs(along));
     EXPECT_LT(norm(patch.face(0) - area * Vector3{across, 0, 0}), 1e-10 * area * std::abs(along));
+  }
+}
+
+// On a path without pattern, where some points of a cell have yielded and others have not: what the forces do
+// is stored or lost, to second order in the steps.
+TEST(yielding_solid, work_is_stored_or_lost) {
+  for (const int degree : {1, 2}) {
+    double off[2], lost = 0;
+    for (const int fine : {0, 1}) {
+      Patch patch(degree);
+      const std::vector<Vector3> end = random_field(patch.model.nodes.size(), 8e-6 / degree, 3);
+      std::vector<Vector3> field(end.size()), before(end.size()), forces(end.size());
+      const int steps = 50 * (1 + fine);
+      double work = 0;
+      for (int k = 1; k <= steps; ++k) {
+        for (std::size_t n = 0; n < end.size(); ++n)
+          field[n] = std::sin(1.5 * pi * k / steps) * end[n]; // there, back, and to the other side
+        patch.move_to(field);
+        for (std::size_t n = 0; n < end.size(); ++n)
+          work += 0.5 * dot(forces[n] + patch.force[n], field[n] - before[n]);
+        before = field, forces = patch.force;
+      }
+      lost = patch.cells.plastic_work();
+      off[fine] = std::abs(work - patch.stored - lost);
+    }
+    EXPECT_LT(off[1], 1e-3 * lost) << degree;
+    EXPECT_LT(off[1], 0.4 * off[0]) << degree;
   }
 }
 
