@@ -287,7 +287,7 @@ void list_whole_test(List &list) {
   list.add("platen_unbalanced_work_relative", "1", history, {}, "platen_unbalanced_work_j",
            [](auto &t) { return t.results.platen_unbalanced_work_relative(); });
   list.where([](auto &t) { return t.problem.platens_yield(); });
-  list.add("platen_plastic_strain", "1", 0, {"largest plastic strain of the platens", "{:.2e}"},
+  list.add("platen_plastic_strain", "1", 0, {"plastic strain of the platens", "{:.2e}"},
            [](auto &t) { return t.problem.platen_plastic_strain(); });
   list.where(everywhere);
   list.add("kinetic_to_internal_max", "1", history | of_every_test,

@@ -164,6 +164,12 @@ void RunMessages::report_doubts(const Json &summary) const {
         "platen_unbalanced_work_relative), which no more than {:.0f} % should be: "
         "Platens/Motion = explicit, or fewer Platens/Steps per solve",
         100 * share, 100 * most_unbalanced);
+  constexpr double small_strain = 0.05;
+  if (const double strain = number_in(summary, "platen_plastic_strain"); strain > small_strain)
+    log_.warning(
+        "platens have yielded by {:.2g} (summary.json, platen_plastic_strain), beyond the small strains of "
+        "their law, {:g}: a higher Platens/Yield strength or a smaller Loading/Target strain",
+        strain, small_strain);
 }
 
 } // namespace platen::apps
