@@ -391,6 +391,17 @@ TEST(yielding_solid, other_materials_beside_it_stay_elastic) {
       EXPECT_EQ(strains[c], 0);
     else
       EXPECT_GT(strains[c], 0);
+  // Pictures have the mean stress of each cell that yields, which is nowhere above the flow stress.
+  const Picture picture = solid.picture();
+  double least = 1e9, most = 0;
+  for (std::size_t n = 0; n < picture.points.size(); ++n)
+    if (solid.model().cell_material[n / 8] == 1) {
+      const double mises = picture.of_points.back().values[n];
+      least = std::min(least, mises), most = std::max(most, mises);
+    }
+  EXPECT_LT(most, (1 + 1e-9) * 1e6);
+  EXPECT_GT(least, 0.2e6);
+  EXPECT_GT(most - least, 1e4);
   ElasticSolid without(grid, {pad, steel}, Clamp{});
   EXPECT_TRUE(without.plastic_strains().empty());
 }
