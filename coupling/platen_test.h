@@ -7,6 +7,7 @@
 
 #include "coupling/boundaries/lateral_surface.h"
 #include "coupling/boundaries/platen.h"
+#include "coupling/boundaries/sleeve.h"
 #include "coupling/platen_cover.h"
 #include "coupling/platen_test_settings.h"
 #include "coupling/program/task.h"

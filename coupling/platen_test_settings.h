@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "coupling/boundaries/machine_spring.h"
-#include "coupling/boundaries/sleeve.h"
 #include "coupling/experiment.h"
 #include "coupling/metal_settings.h"
 #include "coupling/side.h"
+#include "coupling/sleeve_settings.h"
 #include "coupling/stage_settings.h"
 #include "dem/confinement.h"
 #include "dem/laws/contact_settings.h"
