@@ -121,6 +121,18 @@ double at_largest_load(const Test &t, double Sample::*value) {
   return largest == nullptr ? not_measured : largest->*value;
 }
 
+// Share of the pressure on the specimen that the stress of a wall does not bear at the largest load:
+// pressures below a hundredth of the axial stress are not told.
+template <class Test>
+double inertia_share(const Test &t) {
+  const Sample *largest = t.results.at_largest(&Sample::total_load);
+  if (largest == nullptr) return not_measured;
+  const double pressure = largest->tube_pressure,
+               axial = 0.5 * std::abs(largest->stress_top + largest->stress_bottom);
+  if (!(pressure > 0.01 * axial)) return not_measured;
+  return 1 - largest->tube_hoop / (pressure * t.problem.tube()->hoop_over_pressure());
+}
+
 template <class Test>
 double at_first_tear(const Test &t, double Sample::*value) {
   const Sample *last = t.results.before_tear();
@@ -167,6 +179,8 @@ void list_cell(List &list) {
   list.add("tube_pressure_at_largest_pa", "Pa", history,
            {"pressure on the specimen there", "{:.2f} MPa", 1e-6}, "total_load_n tube_pressure_pa",
            [](auto &t) { return at_largest_load(t, &Sample::tube_pressure); });
+  list.add("tube_inertia_share", "1", history, {}, "total_load_n tube_hoop_stress_pa tube_pressure_pa",
+           [](auto &t) { return inertia_share(t); });
   list.where([](auto &t) { return t.problem.tube() != nullptr && t.problem.tube()->yields(); });
   list.add("tube_plastic_work_j", "J", [](auto &t) { return t.problem.tube()->solid().plastic_work(); });
   list.where([](auto &t) { return t.problem.tube() != nullptr && t.problem.tube()->wraps(); });

@@ -39,7 +39,8 @@ constexpr HistoryColumn::Form number = HistoryColumn::Form::number, count = Hist
 constexpr HistoryColumn::Missing without_ledger = HistoryColumn::Missing::without_ledger,
                                  without_spheres = HistoryColumn::Missing::without_spheres,
                                  without_forces = HistoryColumn::Missing::without_forces,
-                                 without_pressure = HistoryColumn::Missing::without_pressure;
+                                 without_pressure = HistoryColumn::Missing::without_pressure,
+                                 torn_through = HistoryColumn::Missing::torn_through;
 
 // In every test: an energy of the ledger; what is measured on spheres of some place.
 HistoryColumn energy(const char *name, double Sample::*member, double (*measure)(const Seen &)) {
@@ -251,9 +252,9 @@ const std::vector<HistoryColumn> &history_columns() {
       {"tube_bonded_share", "1", nullptr,
        [](const Seen &s) { return s.problem.tube()->layer().bonded_share(); }, number, in_bonded_tube},
       {"wrap_hoop_strain", "1", &S::wrap_hoop, [](const Seen &s) { return s.wall.hoop_strain; }, number,
-       in_wrap},
+       in_wrap, torn_through},
       {"wrap_largest_hoop_strain", "1", &S::wrap_most_hoop, [](const Seen &s) { return s.wall.most_hoop; },
-       number, in_wrap},
+       number, in_wrap, torn_through},
       {"wrap_torn_share", "1", &S::wrap_torn, [](const Seen &s) { return s.wall.torn; }, number, in_wrap},
       {"cell_pressure_pa", "Pa", &S::cell_pressure,
        [](const Seen &s) { return s.problem.confining_pressure(); }, state, in_cell},

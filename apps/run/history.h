@@ -95,10 +95,11 @@ struct HistoryColumn {
   // Where a test that has the column does not measure it, so that NaN is no fault.
   enum class Missing {
     never,
-    without_ledger,  // of energies
-    without_spheres, // in all rows, where a specimen has none in the place that it is measured in
-    without_forces,  // in rows where no bond bears a force
-    without_pressure // in rows where a sleeve has no pressure
+    without_ledger,   // of energies
+    without_spheres,  // in all rows, where a specimen has none in the place that it is measured in
+    without_forces,   // in rows where no bond bears a force
+    without_pressure, // in rows where a sleeve has no pressure
+    torn_through      // in rows where no element of a wrap's middle half is whole
   };
   const char *name, *unit;
   double Sample::*member; // null: kept in `more`

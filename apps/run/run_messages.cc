@@ -164,6 +164,14 @@ void RunMessages::report_doubts(const Json &summary) const {
         "platen_unbalanced_work_relative), which no more than {:.0f} % should be: "
         "Platens/Motion = explicit, or fewer Platens/Steps per solve",
         100 * share, 100 * most_unbalanced);
+  constexpr double most_inertia = 0.15; // of the pressure
+  if (const double share = number_in(summary, "tube_inertia_share"); share > most_inertia)
+    log_.warning(
+        "the inertia of the wall, not its stress, bears {:.0f} % of the pressure on the specimen at the "
+        "largest "
+        "load (summary.json, tube_inertia_share), {:.0f} % at most: a lower Loading/Axial rate or "
+        "Sleeve/Mass scaling helps",
+        100 * share, 100 * most_inertia);
   constexpr double small_strain = 0.05;
   if (const double strain = number_in(summary, "platen_plastic_strain"); strain > small_strain)
     log_.warning(

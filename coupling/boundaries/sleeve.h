@@ -81,6 +81,8 @@ public:
   double specimen_pressure() const; // Pa, of the specimen on the middle half of its inner face, mean
   double slip() const;              // m, mean path along it of the specimen's spheres that touch it
   long torn_elements() const;
+  // Of a wall at rest, hoop stress over the pressure on its inner face: free body of half a ring.
+  double hoop_over_pressure() const { return (shape_.radius + settings_.gap) / settings_.thickness; }
   bool is_bonded() const { return settings_.contact.bond.strength > 0; }
   static constexpr const char *reason_of_limit =
       "the finite elements of the sleeve with the springs of its contacts";

@@ -57,6 +57,7 @@ Sleeve::WallState Sleeve::wall_state() const {
     if (shares[c] > 0 && !(hoops[c] <= state.most_hoop)) state.most_hoop = hoops[c];
   if (wraps()) {
     state.hoop_strain = whole > 0 ? state.hoop_strain / whole : not_given;
+    if (!(whole > 0)) state.most_hoop = not_given;
     state.torn = static_cast<double>(torn_elements()) / static_cast<double>(shares.size());
   }
   return state;

@@ -89,6 +89,9 @@ TEST_F(Figures, of_a_tube_are_those_of_the_row_of_the_largest_load) {
   const double area = s["section"]["area_m2"];
   EXPECT_NEAR(load[row] - column("tube", "tube_load_n")[row], 0.5 * (top[row] + bottom[row]) * area,
               1e-9 * load[row]);
+  const double borne = column("tube", "tube_hoop_stress_pa")[row] * 0.5e-3 / 10e-3; // Pa
+  EXPECT_NEAR(s["tube_inertia_share"].get<double>(), 1 - borne / column("tube", "tube_pressure_pa")[row],
+              1e-9);
   expect_reason(s, moduli, "a tube or a wrap holds the sides");
   EXPECT_TRUE(has(s["effects"], "tube"));
 }
@@ -113,6 +116,14 @@ TEST_F(Figures, of_a_wrap_are_those_of_the_row_before_it_tears) {
   EXPECT_GT(s["wrap_torn_energy_j"], 0);
   EXPECT_TRUE(has(s["effects"], "wrap"));
   EXPECT_FALSE(s.contains("tube_plastic_work_j"));
+  Words thin = with("Sleeve/Rupture strain = 0.05");
+  thin.push_back("Sleeve/Thickness = 1 um"); // which is heavy, for it has steps as long as others
+  EXPECT_GT(crush("thin", thin)["tube_inertia_share"], 0.9);
+  EXPECT_TRUE(contains(outcome_.error, "the inertia of the wall, not its stress, bears"));
+  const nlohmann::json gone = crush("gone", with("Sleeve/Rupture strain = 0.00001"));
+  EXPECT_TRUE(gone["tube_inertia_share"].is_null()); // next to no pressure
+  EXPECT_TRUE(std::isnan(column("gone", "wrap_hoop_strain").back()));
+  EXPECT_TRUE(std::isnan(column("gone", "wrap_largest_hoop_strain").back()));
   const nlohmann::json whole = crush("whole", with("Sleeve/Rupture strain = 0.05"));
   expect_reason(whole, {"strain_at_first_tear", "hoop_strain_at_first_tear"}, "no part of the wrap has torn");
   EXPECT_EQ(whole["wrap_torn_energy_j"], 0);
