@@ -201,9 +201,10 @@ const Sample *Results::at_largest(double Sample::*value) const {
 }
 
 const Sample *Results::before_tear() const {
-  for (std::size_t k = 1; k < samples_.size(); ++k)
-    if (samples_[k].wrap_torn > 0) return &samples_[k - 1];
-  return nullptr;
+  std::size_t k = 0;
+  while (k < samples_.size() && samples_[k].wrap_torn == 0)
+    ++k;
+  return k > 1 && k < samples_.size() ? &samples_[k - 1] : nullptr;
 }
 
 double Results::stress_at_end() const {

@@ -115,7 +115,7 @@ public:
   LargestReading largest_stress() const { return largest_of(false, 0); }  // of every sample
   LargestReading largest_deviator() const { return largest_of(true, 1); } // since the axial stage began
   const Sample *at_largest(double Sample::*value) const; // the first sample of it; null where one is NaN
-  // The last sample before the wrap begins to tear; null where it does not.
+  // The last sample before the wrap begins to tear; null where it does not, or none but the start is before.
   const Sample *before_tear() const;
   double stress_at_end() const;
   double strength() const;           // the stress at the peak

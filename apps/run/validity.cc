@@ -226,7 +226,11 @@ const std::vector<Reason> reasons{
     {consolidation, [](Test t) { return against_controls(t, t.results.consolidation_end()); }},
     {peak, against_path},
     {gauge, against_gauge},
-    {torn, [](Test t) { return when(t.results.before_tear() == nullptr, "no part of the wrap has torn"); }},
+    {torn,
+     [](Test t) {
+       return when(t.results.before_tear() == nullptr,
+                   "no part of the wrap has torn after the first rows of history.csv");
+     }},
     {whole_bar,
      [](Test t) { return when(t.problem.notched(), "the bar has a notch: beam theory knows of none"); }},
     {ligament,

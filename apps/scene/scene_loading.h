@@ -127,9 +127,8 @@ struct Loading : coupling::LoadingSettings {
   }
   bool staged() const { return !stages.empty(); }
   bool sleeved() const { return confinement == ConfinementKind::sleeve; } // of finite elements, any kind
-  bool tubed() const {
-    return sleeved() && sleeve_kind != SleeveKind::rubber;
-  } // a wall that the specimen presses
+  // A wall that the specimen presses, tube or wrap.
+  bool tubed() const { return sleeved() && sleeve_kind != SleeveKind::rubber; }
   bool wrapped() const { return sleeved() && sleeve_kind == SleeveKind::wrap; }
   bool confined() const { return confinement != ConfinementKind::none && !tubed(); } // by a pressure
   bool walled() const { return test == LoadingTest::uniaxial_strain; }

@@ -228,8 +228,7 @@ void declare_sleeve(Parameters &parameters, Loading &loading) {
           "Kind", loading.sleeve_kind,
           {{"rubber", SleeveKind::rubber}, {"tube", SleeveKind::tube}, {"wrap", SleeveKind::wrap}},
           "rubber: in a cell, whose pressure acts through it; tube: of metal that yields, and wrap: of "
-          "fibres "
-          "in resin that tear, confine the specimen because it presses them.")
+          "fibres in resin that tear, confine the specimen because it presses them.")
       .member("loading.tube");
   Members of(section, sleeve);
   Members metal(section.only_if("Sleeve/Kind", tube), *sleeve.metal);

@@ -124,6 +124,12 @@ TEST_F(Figures, of_a_wrap_are_those_of_the_row_before_it_tears) {
   EXPECT_TRUE(gone["tube_inertia_share"].is_null()); // next to no pressure
   EXPECT_TRUE(std::isnan(column("gone", "wrap_hoop_strain").back()));
   EXPECT_TRUE(std::isnan(column("gone", "wrap_largest_hoop_strain").back()));
+  Words at_once = with("Sleeve/Rupture strain = 0.000001");
+  at_once.push_back("Output/Every = 400"); // the first row after the start has torn elements
+  const nlohmann::json early = crush("early", at_once);
+  EXPECT_GT(column("early", "wrap_torn_share")[1], 0);
+  expect_reason(early, {"strain_at_first_tear", "hoop_strain_at_first_tear"},
+                "no part of the wrap has torn after the first rows");
   const nlohmann::json whole = crush("whole", with("Sleeve/Rupture strain = 0.05"));
   expect_reason(whole, {"strain_at_first_tear", "hoop_strain_at_first_tear"}, "no part of the wrap has torn");
   EXPECT_EQ(whole["wrap_torn_energy_j"], 0);
